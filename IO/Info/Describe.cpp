@@ -6,6 +6,7 @@
 #include "IO/Info/StreamTopology.h"
 #include "IO/Mesh/Columns.h"
 #include "Solver/Assembly/Elements.h"
+#include "Solver/Core/Text.h"
 #include "Solver/Core/Vector.h"
 #include "Solver/Jobs/Fairing/MeshMeasures.h"
 #include "Solver/Mesh/StreamCheck.h"
@@ -19,7 +20,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
 // The description of a mesh, from one reading of its stream. Windows of open vertices hold what is
 // needed of the cells so far: positions and bodies (MeshMeasures), and triangles around vertices
@@ -185,13 +189,18 @@ public:
     this->Check.add(block);
     this->Measures.add(block);
     this->Topology.extend(this->Check.vertices());
+    const std::ptrdiff_t groups = findColumn(
+      block.cellColumns, MeshGroups::columnSpec(GroupOf::Cells, cornersOf(this->Info.cellType)));
+    const std::span<const GroupSet> sets =
+      groups < 0 ? std::span<const GroupSet>()
+                 : block.cellColumns[static_cast<std::size_t>(groups)].as<GroupSet>();
     forAllCells(this->Info.cellType, block,
-      [this](const std::int64_t* corners, unsigned flags, std::size_t /*c*/)
+      [&](const std::int64_t* corners, unsigned flags, std::size_t c)
       {
         this->Shapes.add(corners, flags, this->Measures);
         if (!hasRepeatedCorner(corners, cornersOf(this->Info.cellType)))
         {
-          this->Topology.add(corners);
+          this->Topology.add(corners, sets.empty() ? GroupSet(0) : sets[c]);
         }
       });
     this->Groups.add(block, this->Measures);
@@ -234,6 +243,10 @@ public:
     {
       description.notes.push_back(std::move(note));
     }
+    else
+    {
+      this->noteCoincidentFaces(description);
+    }
     return description;
   }
 
@@ -261,6 +274,39 @@ private:
     const bool encloses = description.closed && counts.unbalancedEdges == 0;
     description.volume = encloses ? this->Measures.volume() : std::nan("");
     description.turned_volume = encloses ? this->Measures.turnedVolume() : std::nan("");
+  }
+
+  /** Interfaces of which two bodies have a copy each: they are connected nowhere there. */
+  void noteCoincidentFaces(MeshDescription& description) const
+  {
+    const StreamTopology::CoincidentFaces faces = this->Topology.coincidentFaces();
+    description.coincident_facets = faces.count;
+    if (faces.count == 0)
+    {
+      return;
+    }
+    const auto nameOfSet = [this](std::int32_t set)
+    {
+      std::vector<std::string> names;
+      for (const std::uint32_t group : this->Info.groups.sets[static_cast<std::size_t>(set)])
+      {
+        names.push_back('\'' + this->Info.groups.groups[group].label() + '\'');
+      }
+      return names.empty() ? std::string("cells of no group") : listed(names, "and");
+    };
+    std::string between;
+    for (const auto& [sets, places] : faces.places)
+    {
+      if (!this->Info.groups.empty())
+      {
+        between += (between.empty() ? ": " : "; ") + std::to_string(places) + " between " +
+                   nameOfSet(sets.first) + " and " + nameOfSet(sets.second);
+      }
+    }
+    description.notes.push_back(std::string(faces.isExact ? "" : "About ") +
+                                std::to_string(faces.count) +
+                                " faces of the boundary lie on others" + between +
+                                ". Bodies are not connected there: --weld joins them.");
   }
 
   void finishExtent(MeshDescription& description) const

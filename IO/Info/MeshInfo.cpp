@@ -134,6 +134,7 @@ void addTopology(const MeshDescription& mesh, Json& json)
   json[isSurface ? "boundary_loops" : "boundary_surfaces"] = mesh.boundary_parts;
   if (!isSurface)
   {
+    json["coincident_faces"] = mesh.coincident_facets;
     json["nonmanifold_faces"] = mesh.nonmanifold_facets;
   }
   json["nonmanifold_edges"] = mesh.nonmanifold_edges;

@@ -59,7 +59,7 @@ void StreamTopology::extend(std::int64_t vertices)
   }
 }
 
-void StreamTopology::add(const std::int64_t* corners)
+void StreamTopology::add(const std::int64_t* corners, GroupSet groups)
 {
   if (this->Type == CellType::Triangle)
   {
@@ -69,7 +69,7 @@ void StreamTopology::add(const std::int64_t* corners)
   for (int k = 0; k < 4; ++k)
   {
     const CellFacet face = facetOf(this->Type, corners, k);
-    this->Faces.add(face.vertex[0], face.vertex[1], face.vertex[2], 1);
+    this->Faces.add(face.vertex[0], face.vertex[1], face.vertex[2], groups);
   }
 }
 
@@ -93,10 +93,14 @@ void StreamTopology::closeVertex(std::int64_t v, const MeshMeasures& points)
   if (this->Type == CellType::Tetrahedron)
   {
     this->Counts.nonManifoldFacets += this->Faces.take(v,
-      [&](std::int64_t middle, std::int64_t high, std::int32_t)
+      [&](std::int64_t middle, std::int64_t high, std::int32_t groups)
       {
         const std::int64_t face[] = { v, middle, high };
         this->addBoundary(face, points);
+        const auto placeOf = [&points](std::int64_t corner)
+        { return PlaceSample::placeOf(points.point(corner)); };
+        this->Coincident.add(
+          PlaceSample::placeOf({ placeOf(v), placeOf(middle), placeOf(high) }), groups);
         this->Stars.add(v, middle, high);
       });
   }
@@ -122,6 +126,25 @@ void StreamTopology::closeVertex(std::int64_t v, const MeshMeasures& points)
         });
     }
   }
+}
+
+auto StreamTopology::coincidentFaces() const -> CoincidentFaces
+{
+  CoincidentFaces found;
+  std::vector<PlaceSample::Entry> entries = this->Coincident.entries();
+  const int shift = this->Coincident.shift();
+  PlaceSample::forPlaces(entries,
+    [&](std::span<const PlaceSample::Entry> place)
+    {
+      if (place.size() > 1)
+      {
+        const std::int64_t places = std::int64_t(1) << shift;
+        found.places[{ place.front().label, place.back().label }] += places;
+        found.count += places;
+      }
+    });
+  found.isExact = shift == 0;
+  return found;
 }
 
 /** Adds a facet of the boundary, whose corners are open. */

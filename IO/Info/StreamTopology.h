@@ -2,13 +2,17 @@
 #pragma once
 
 #include "IO/Order/Pages/VertexStar.h"
+#include "Solver/Assembly/CoincidentPoints.h"
 #include "Solver/Assembly/Facets.h"
 #include "Solver/Jobs/Fairing/MeshMeasures.h"
 #include "Solver/Memory/Pool.h"
 #include "Solver/Memory/Ring.h"
 #include "Solver/Mesh/OpenSets.h"
+#include "smg/Groups.h"
 
 #include <cstdint>
+#include <map>
+#include <utility>
 #include <vector>
 
 namespace smg
@@ -101,12 +105,22 @@ public:
 
   /** To be called for the vertices of a block before its cells. */
   void extend(std::int64_t vertices);
-  /** Adds a cell with distinct corners. */
-  void add(const std::int64_t* corners);
+  /** Adds a cell with distinct corners, and the set of groups that it is in. */
+  void add(const std::int64_t* corners, GroupSet groups);
   /** Counts at the vertices up to before `end`, which get no more cells; `points` has them. */
   void close(std::int64_t end, const MeshMeasures& points);
 
   const TopologyCounts& counts() const { return this->Counts; }
+
+  /** Faces of the boundary of a solid that lie on others, by the sets of groups of two of the cells
+   * there. Of a large boundary they are estimates. */
+  struct CoincidentFaces
+  {
+    std::map<std::pair<std::int32_t, std::int32_t>, std::int64_t> places;
+    std::int64_t count = 0;
+    bool isExact = true;
+  };
+  CoincidentFaces coincidentFaces() const;
 
 private:
   /** The facets of a part of the boundary. */
@@ -128,6 +142,7 @@ private:
   OpenFacets Faces; ///< of tetrahedra
   OpenStars Stars;  ///< of the triangles of the surface, or of the boundary
   OpenSets<Part> Boundary;
+  PlaceSample Coincident{ std::size_t(1) << 16 }; ///< faces with the sets of groups of their cells
   TopologyCounts Counts;
   std::int64_t Closed = 0;
 };

@@ -338,6 +338,33 @@ TEST(Describe, MeasuresASphereATorusAndABox)
   EXPECT_NEAR(one.quality.minimum, 1.0, 1e-12);
 }
 
+/** Two boxes side by side, each with its own copy of the faces between them; and one whose cells
+ * share them. */
+TEST(Describe, FacesThatBodiesHaveACopyOfEachAreCounted)
+{
+  StreamMesh boxes = toStream(disjointUnion(tetBox(4, 5, 3), tetBox(4, 5, 3), { 3.0, 0.0, 0.0 }));
+  boxes.groups.groups = { { "chip", 1, GroupOf::Cells }, { "sink", 2, GroupOf::Cells } };
+  boxes.groups.sets = { {}, { 0 }, { 1 } };
+  std::vector<GroupSet> sets;
+  for (std::int64_t c = 0; c < boxes.cells(); ++c)
+  {
+    double middle = 0.0;
+    for (int k = 0; k < 4; ++k)
+    {
+      middle += boxes.positions[3 * static_cast<std::size_t>(boxes.corners[4 * c + k])] / 4.0;
+    }
+    sets.push_back(middle < 3.0 ? 1 : 2);
+  }
+  boxes.cellColumns.push_back(makeColumn<GroupSet>(CellGroupsName, sets));
+  const MeshDescription apart = described(boxes);
+  EXPECT_EQ(apart.bodies, 2);
+  EXPECT_EQ(apart.coincident_facets, 2 * 4 * 2);
+  ASSERT_EQ(apart.notes.size(), 1U);
+  EXPECT_EQ(apart.notes[0], "16 faces of the boundary lie on others: 16 between 'chip' and 'sink'. "
+                            "Bodies are not connected there: --weld joins them.");
+  EXPECT_EQ(described(toStream(tetBox(7, 5, 3))).coincident_facets, 0);
+}
+
 TEST(Describe, ACavityCountsAsTurnedVolume)
 {
   IndexedTestMesh hole = sphere(3);

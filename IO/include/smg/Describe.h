@@ -105,6 +105,9 @@ struct SMG_EXPORT MeshDescription
   std::int64_t boundary_facets = 0;
   /** Parts of the boundary: loops of edges, or surfaces. Those that touch in a vertex are one. */
   std::int64_t boundary_parts = 0;
+  /** Of a solid: places of boundary faces at which several lie, as of bodies that touch without
+   * sharing vertices; of more than 65,536 faces an estimate. A note says between which groups. */
+  std::int64_t coincident_facets = 0;
   std::int64_t nonmanifold_facets = 0; ///< edges of more triangles than two, faces of tetrahedra
   /** Edges of more than two triangles, of the surface or of the boundary of the solid. */
   std::int64_t nonmanifold_edges = 0;
