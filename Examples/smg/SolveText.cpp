@@ -122,6 +122,11 @@ void printSolve(const smg::Report& report)
     std::printf("  %s: %smean%s, flux into the body%s\n", smg::oneLine(condition.name).c_str(),
       extentOf(condition).c_str(), listOf(condition.mean).c_str(), listOf(condition.flux).c_str());
   }
+  for (const smg::Report::Contact& contact : report.contacts)
+  {
+    std::printf("  %s: area%s, mean step%s, flow%s\n", smg::oneLine(contact.name).c_str(),
+      listOf({ contact.area }).c_str(), listOf(contact.step).c_str(), listOf(contact.flow).c_str());
+  }
   for (const smg::Report::Integral& part : report.integrals)
   {
     std::printf("  %s: measure%s, integral%s, mean%s, of the flux%s\n",

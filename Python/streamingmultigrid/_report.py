@@ -58,7 +58,7 @@ class Report(_Facts):
 
     Of a solve for example `vertices`, `cells`, `passes`, `cycles`, `residuals` (relative, one for each
     V-cycle), `converged`, `pool_bytes_peak` (accounted memory, bytes), `seconds` (a dict),
-    `conditions`, `integrals`, `energy` (1/2 the integral of grad u . K grad u + s u^2, for each column), `mean`,
+    `conditions`, `contacts`, `integrals`, `energy` (1/2 the integral of grad u . K grad u + s u^2, for each column), `mean`,
     `minimum`, `maximum`, `notes` and `warnings` (sentences). Numbers that are not finite are None.
     docs/solve.md describes all of them. Some are of some jobs alone; `to_dict` makes a plain dict.
     """
@@ -91,6 +91,11 @@ class Report(_Facts):
             lines.append(
                 "  %s: mean %s, flux %s"
                 % (condition["name"], condition.get("mean"), condition.get("flux"))
+            )
+        for contact in self.get("contacts") or []:
+            lines.append(
+                "  %s: area %.6g, mean step %s, flow %s"
+                % (contact["name"], contact["area"], contact.get("step"), contact.get("flow"))
             )
         for part in self.get("integrals") or []:
             lines.append(

@@ -162,11 +162,11 @@ double CellAssembly::couple(std::int64_t i)
     return 0.0;
   }
   this->vertices.ties.forLinks(i,
-    [&](std::int64_t to, double conductance)
+    [&](const VertexCouplings::Link& link)
     {
-      const std::int64_t ends[] = { i, to };
+      const std::int64_t ends[] = { i, link.to };
       this->parts.join(ends, 2);
-      this->edges.addLink(i, to, conductance);
+      this->edges.addLink(i, link.to, link.conductance);
     });
   double mass = 0.0;
   this->vertices.ties.forVerticesOf(

@@ -76,7 +76,7 @@ public:
       visit(this->ByNode[t].vertex);
     }
   }
-  /** Calls visit(to, conductance) for the links of a vertex to higher ones, in ascending order. */
+  /** Calls visit(link) for the links of a vertex to higher ones, in ascending order. */
   template <class Visit>
   void forLinks(std::int64_t from, Visit&& visit) const
   {
@@ -88,8 +88,15 @@ public:
     for (auto link = std::ranges::lower_bound(links, from, {}, &VertexCouplings::Link::from);
          link != links.end() && link->from == from; ++link)
     {
-      visit(link->to, link->conductance);
+      visit(*link);
     }
+  }
+
+  /** The contacts of the links. */
+  std::span<const VertexCouplings::Contact> contacts() const
+  {
+    return this->Of ? std::span<const VertexCouplings::Contact>(this->Of->contacts)
+                    : std::span<const VertexCouplings::Contact>();
   }
 
   /** Up to which vertex rows can be completed if no later cell has a vertex below `final`, which is

@@ -80,7 +80,7 @@ struct StateFront
 {
   static constexpr std::string_view Magic = "SMGSTATE";
   static constexpr std::uint32_t OrderMark = 0x01020304;
-  static constexpr std::uint32_t Version = 14;
+  static constexpr std::uint32_t Version = 15;
 
   char magic[8];
   std::uint32_t version;

@@ -164,6 +164,14 @@ inline constexpr auto Fields<Report::Integral> = std::tuple{
 };
 
 template <>
+inline constexpr auto Fields<Report::Contact> = std::tuple{
+  field("name", &Report::Contact::name),
+  field("area", &Report::Contact::area),
+  field("step", &Report::Contact::step),
+  field("flow", &Report::Contact::flow),
+};
+
+template <>
 inline constexpr auto Fields<Report::Seam> = std::tuple{
   field("column", &Report::Seam::column),
   field("before", &Report::Seam::before),
@@ -242,6 +250,7 @@ inline constexpr auto Fields<Report> = std::tuple{
   field("errors", &Report::errors, total::None, shown::IfAny),
   field("conditions", &Report::conditions, total::None, shown::OfSolution),
   field("parts", &Report::parts, total::None, shown::OfParts),
+  field("contacts", &Report::contacts, total::None, shown::IfAny),
   field("integrals", &Report::integrals, total::None, shown::IfAny),
   field("energy", &Report::energy, total::None, shown::OfSolution),
   field("mean", &Report::mean, total::None, shown::OfSolution),

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 #include <utility>
 
 // From places in a description to pairs of vertices. The facets of both sides of a periodic pair,
@@ -160,6 +161,13 @@ void CouplingSearch::end(const MeshParts* parts)
   auto found = std::make_shared<VertexCouplings>();
   classes.fill(*found);
   this->addLinks(classes, found->links);
+  for (std::size_t k = 0; k < this->Interfaces.size(); ++k)
+  {
+    const std::string group = groupNames(this->Interfaces[k].where);
+    found->contacts.push_back(
+      { "interface[" + std::to_string(k) + ']' + (group.empty() ? "" : " (" + group + ')'),
+        this->Interfaces[k].coefficient });
+  }
   this->Reserved.resize(
     static_cast<std::int64_t>(found->ties.capacity() * sizeof(VertexCouplings::Tie) +
                               found->jumps.capacity() * sizeof(double) +
@@ -178,11 +186,12 @@ void CouplingSearch::addLinks(TiedClasses& classes, std::vector<VertexCouplings:
       const auto [from, to] = std::minmax({ classes.nodeOf(link.from), classes.nodeOf(link.to) });
       if (from != to)
       {
-        links.push_back({ from, to, link.conductance });
+        links.push_back({ from, to, link.conductance, static_cast<int>(k) });
       }
     }
   }
-  const auto ends = [](const VertexCouplings::Link& link) { return std::pair(link.from, link.to); };
+  const auto ends = [](const VertexCouplings::Link& link)
+  { return std::tuple(link.from, link.to, link.contact); };
   std::ranges::stable_sort(links, {}, ends);
   std::size_t last = 0;
   for (std::size_t l = 1; l < links.size(); ++l)

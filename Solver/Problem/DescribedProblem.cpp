@@ -112,13 +112,6 @@ std::string keyOf(const char* list, std::size_t k)
   return std::string(list) + '[' + std::to_string(k) + ']';
 }
 
-/** The names of the groups of a place; "": it is another. */
-std::string groupNames(const Where& where)
-{
-  const auto* group = std::get_if<InGroup>(&where);
-  return group ? listed(group->names, "and") : "";
-}
-
 } // namespace
 
 /** The data of a description, resolved on a mesh. */

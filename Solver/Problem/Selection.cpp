@@ -54,6 +54,12 @@ std::string whyNoGroup(const std::string& name, const MeshGroups& groups)
                         : "the mesh has no group '" + name + "'; it has " + groups.listFor(name);
 }
 
+std::string groupNames(const Where& where)
+{
+  const auto* group = std::get_if<InGroup>(&where);
+  return group ? listed(group->names, "and") : "";
+}
+
 bool isOfCells(const Where& where, const MeshColumns& columns)
 {
   if (const auto* group = std::get_if<InGroup>(&where))

@@ -65,6 +65,9 @@ inline const std::string* columnOf(const Where& where)
   return tag ? &tag->column : mask ? &mask->column : nullptr;
 }
 
+/** The names of the groups of a place, for messages and reports; "": it is another. */
+std::string groupNames(const Where& where);
+
 /** Whether a part of the mesh is one of cells: by a column of theirs or by a group, or if any part
  * is of which it consists. Columns of the vertices take precedence, groups of cells as well. */
 bool isOfCells(const Where& where, const MeshColumns& columns);

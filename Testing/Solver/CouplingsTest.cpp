@@ -306,6 +306,11 @@ TEST(Couplings, DescriptionsHaveAnalyticSolutions)
   ASSERT_EQ(report.conditions.size(), 2U);
   EXPECT_NEAR(report.conditions[1].flux[0], flow, 1e-8 * flow);
   EXPECT_NEAR(report.conditions[0].flux[0], -flow, 1e-8 * flow);
+  ASSERT_EQ(report.contacts.size(), 1U);
+  EXPECT_EQ(report.contacts[0].name, "interface[0]");
+  EXPECT_NEAR(report.contacts[0].area, 16.0, 1e-12);
+  EXPECT_NEAR(report.contacts[0].flow[0], flow, 1e-8 * flow);
+  EXPECT_NEAR(report.contacts[0].step[0], flow / 16.0 / 0.5, 1e-8);
 
   const StreamMesh box = toStream(periodicBox(6, 5, 5));
   ProblemDescription periodic;

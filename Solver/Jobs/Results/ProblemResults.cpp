@@ -328,24 +328,26 @@ void ProblemResults::addBoundary(std::int64_t i)
 void ProblemResults::addLinks(std::int64_t i)
 {
   this->Vertices.ties.forLinks(i,
-    [&](std::int64_t to, double conductance)
+    [&](const VertexCouplings::Link& link)
     {
-      const std::int64_t ends[] = { i, to };
+      const std::int64_t ends[] = { i, link.to };
       this->Labels.join(ends, 2);
       const Ring<std::int32_t>& dirichlet = this->Vertices.dirichlet;
-      if (dirichlet[i] != dirichlet[to])
+      if (dirichlet[i] != dirichlet[link.to])
       {
-        this->Edges.addLink(i, to, conductance);
+        this->Edges.addLink(i, link.to, link.conductance);
       }
-      for (const int side : { 0, 1 })
+      double* const flows[] = { this->Flows.at(i), this->Flows.at(link.to) };
+      for (std::size_t k = 0; k < this->Columns; ++k)
       {
-        double* flows = this->Flows.at(ends[side]);
-        flows[this->Columns] += conductance;
-        for (std::size_t k = 0; k < this->Columns; ++k)
-        {
-          flows[k] += conductance * this->Vertices.difference(ends[side], ends[1 - side], k);
-        }
+        const double flow = link.conductance * this->Vertices.difference(i, link.to, k);
+        flows[0][k] += flow;
+        flows[1][k] -= flow;
+        this->Steps[k] = flow;
       }
+      flows[0][this->Columns] += link.conductance;
+      flows[1][this->Columns] += link.conductance;
+      this->Sums.addContact(link, std::span(this->Steps).first(this->Columns));
     });
 }
 

@@ -353,6 +353,15 @@ ResultSums::ResultSums(CellType type, Problem& problem)
   , CellEnergy(this->Columns)
   , LeftOut(this->Columns)
 {
+  if (const auto couplings = problem.couplings())
+  {
+    this->Contacts = couplings->contacts;
+    for (const VertexCouplings::Contact& contact : this->Contacts)
+    {
+      const std::vector<double> zeros(this->Columns);
+      this->OfContacts.push_back({ contact.name, 0.0, zeros, zeros });
+    }
+  }
   // Extremes begin with values that every number replaces; the vertex stays -1 if there is none.
   constexpr double Far = std::numeric_limits<double>::infinity();
   this->minimum.assign(this->Columns, { Far, -1 });
@@ -384,6 +393,21 @@ void ResultSums::add(VertexTerms terms, const double* u, std::int32_t dirichlet,
     body.include(u[k]);
   }
   this->addResidual(terms, u, dirichlet, label);
+}
+
+void ResultSums::addContact(const VertexCouplings::Link& link, std::span<const double> flow)
+{
+  if (link.contact < 0)
+  {
+    return;
+  }
+  const auto contact = static_cast<std::size_t>(link.contact);
+  Report::Contact& sums = this->OfContacts[contact];
+  sums.area += link.conductance / this->Contacts[contact].coefficient;
+  for (std::size_t k = 0; k < this->Columns; ++k)
+  {
+    sums.flow[k] += std::fabs(flow[k]);
+  }
 }
 
 /** Adds the residual ((L + S) u - F)_i of a vertex, of a prescribed one as the reaction of its
@@ -466,6 +490,14 @@ void ResultSums::finish(Report& report, bool hasRest) const
   this->reportBalance(report, hasRest);
   this->reportParts(report);
   this->reportIntegrals(report);
+  report.contacts = this->OfContacts;
+  for (std::size_t k = 0; k < report.contacts.size(); ++k)
+  {
+    Report::Contact& contact = report.contacts[k];
+    const double conductance = this->Contacts[k].coefficient * contact.area;
+    std::ranges::transform(
+      contact.flow, contact.step.begin(), [=](double flow) { return flow / conductance; });
+  }
   noteConditionsWithoutEffect(report);
   this->noteFlatCells(report);
 }

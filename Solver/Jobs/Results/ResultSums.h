@@ -184,6 +184,8 @@ public:
   void add(VertexTerms terms, const double* u, std::int32_t dirichlet, std::int32_t label);
   /** Sets the sums over the cells. */
   void setCells(const CellResults& cells);
+  /** Adds what flows through a link, by column. */
+  void addContact(const VertexCouplings::Link& link, std::span<const double> flow);
   /** Compares a value of a column with the extremes; of equal ones the first one remains. */
   void compare(std::size_t column, double value, std::int64_t vertex)
   {
@@ -226,6 +228,8 @@ private:
   std::vector<PartSums> Parts;             // likewise
   std::vector<IntegralSums> Integrals;     // likewise
   std::vector<std::string> IntegralNames;
+  std::vector<VertexCouplings::Contact> Contacts;
+  std::vector<Report::Contact> OfContacts; // with sums of magnitudes, before they are means
 };
 
 } // namespace smg

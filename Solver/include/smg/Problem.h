@@ -149,12 +149,21 @@ struct VertexCouplings
   {
     std::int64_t from;  ///< not tied
     std::int64_t to;    ///< more than `from`, and not tied
-    double conductance; ///< at least 0
+    double conductance; ///< more than 0
+    /** The number of its contact in `contacts`; -1: none. */
+    int contact = -1;
+  };
+  /** Links that have an entry in Report::contacts. */
+  struct Contact
+  {
+    std::string name;
+    double coefficient; ///< the conductance of a link over its share of the area or length
   };
 
   std::vector<Tie> ties;     ///< by ascending `vertex`, each once
   std::vector<double> jumps; ///< `columns` a tie: what `vertex` has more than `to`; empty: 0
-  std::vector<Link> links;   ///< by ascending `from`, then `to`, each once
+  std::vector<Link> links;   ///< by ascending `from`, then `to`, then `contact`
+  std::vector<Contact> contacts;
 };
 
 /**

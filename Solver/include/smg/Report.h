@@ -219,6 +219,15 @@ struct SMG_EXPORT Report
     std::vector<double> flux;     ///< integral of -K grad u: 3 a column
   };
 
+  /** What flows through a contact of bodies (ProblemDescription::interfaces). */
+  struct Contact
+  {
+    std::string name;         ///< "interface[0]", with the name of its group
+    double area = 0;          ///< or length, of a surface
+    std::vector<double> step; ///< per column: the mean of |u - u on the other side|
+    std::vector<double> flow; ///< per column: the total of coefficient * |u - u on the other side|
+  };
+
   /** The largest difference of a column, over its components, between the ends of the edges that
    * are not in one patch. */
   struct Seam
@@ -299,6 +308,7 @@ struct SMG_EXPORT Report
   std::vector<double> energy;
   /** Of a problem with a conductivity: the whole, and its parts if there are several. */
   std::vector<Part> parts;
+  std::vector<Contact> contacts;   ///< of bodies
   std::vector<Integral> integrals; ///< over the groups that the problem asks for
   std::vector<double> mean;        ///< per column: the mean of u, weighted with area or volume
   std::vector<Extreme> minimum;    ///< per column: the smallest value of u
