@@ -71,11 +71,14 @@ bool hasCellNumbers(const StoredMesh& mesh)
   return findColumn(mesh.info().cellColumns, OriginalCellIdSpec) >= 0;
 }
 
-/** Whether each cell of the file has become one of the mesh. */
-bool keepsCells(const ConversionReport& conversion)
+/** Whether each element of the file has become a cell of the mesh: one of a lower dimension is not,
+ * but in a group of facets or vertices. */
+bool keepsCells(const StoredMesh& mesh, const ConversionReport& conversion)
 {
   return !conversion.keeps_numbers && conversion.dropped_cells == 0 &&
-         conversion.triangulated_polygons == 0 && conversion.split_cells == 0;
+         conversion.triangulated_polygons == 0 && conversion.split_cells == 0 &&
+         std::ranges::all_of(mesh.info().groups.groups,
+           [](const Group& group) { return group.of == GroupOf::Cells; });
 }
 
 } // namespace
@@ -83,7 +86,7 @@ bool keepsCells(const ConversionReport& conversion)
 std::int64_t countElements(
   const StoredMesh& mesh, const ConversionReport* conversion, const ProgressFunction& progress)
 {
-  if (!hasCellNumbers(mesh) || (conversion && keepsCells(*conversion)))
+  if (!hasCellNumbers(mesh) || (conversion && keepsCells(mesh, *conversion)))
   {
     return mesh.info().cells;
   }
@@ -114,7 +117,7 @@ OriginalOrder::OriginalOrder(const StoredMesh& mesh, const ConversionReport* con
   {
     this->readVertices(mesh, partOf(progress, 0.0, 0.5));
   }
-  if (isTold && keepsCells(*conversion) && hasCellNumbers(mesh))
+  if (isTold && keepsCells(mesh, *conversion) && hasCellNumbers(mesh))
   {
     this->Cells.column = OriginalCellIdName;
   }
