@@ -58,7 +58,7 @@ def load(name):
 
 def read_vtk_xml(name):
     """The arrays of a .vtp or .vtu file, by name, as tuples."""
-    codes = {"Float32": "f", "Float64": "d", "Int64": "q", "Int32": "i", "UInt8": "B"}
+    codes = {"Float32": "f", "Float64": "d", "Int64": "q", "Int32": "i", "UInt16": "H", "UInt8": "B"}
     arrays = {}
     for array in xml.parse(name).getroot().iter("DataArray"):
         assert array.get("format") == "binary"

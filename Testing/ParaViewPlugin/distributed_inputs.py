@@ -21,7 +21,7 @@ controller = vtkMultiProcessController.GetGlobalController()
 rank, ranks = controller.GetLocalProcessId(), controller.GetNumberOfProcesses()
 assert ranks > 1
 folder = t.make_shared_folder()
-HEAT_SINK = os.path.join(os.environ["SMG_SOURCE_DIR"], "Examples", "Data", "heat_sink.vtk")
+HEAT_SINK = os.path.join(os.environ["SMG_SOURCE_DIR"], "Examples", "Data", "heat_sink.msh")
 BUNNY = {"source": 1, "dirichlet": [{"halfspace": [0, -1, 0, -t.FEET], "value": 2}],
          "flux": [{"halfspace": [0, 1, 0, t.EARS], "value": 3}]}
 SINK = {"dirichlet": [{"halfspace": [0, 0, -1, -0.0001], "value": 0}], "conductivity": [3, 2, 1, 0.5, 0, 0],

@@ -120,7 +120,7 @@ assert len(ids) > 0 and abs(values - whole[ids]).max() <= 1e-6 * numpy.ptp(whole
 
 # A solid with conditions, and the fluxes of each process's own cells.
 sink = StreamingMeshReader(
-    FileName=os.path.join(os.environ["SMG_SOURCE_DIR"], "Examples", "Data", "heat_sink.vtk"))
+    FileName=os.path.join(os.environ["SMG_SOURCE_DIR"], "Examples", "Data", "heat_sink.msh"))
 text = {"dirichlet": [{"halfspace": [0, 0, -1, -0.0001], "value": 0}],
         "robin": [{"halfspace": [0, 0, 1, 0.005], "coefficient": 2, "ambient": 1}],
         "flux": [{"halfspace": [-1, 0, 0, -0.011], "value": 3}],

@@ -15,7 +15,7 @@ from paraview.simple import *
 
 LoadPlugin(sys.argv[1], ns=globals())
 folder = t.make_folder()
-SINK = os.path.join(os.environ["SMG_SOURCE_DIR"], "Examples", "Data", "heat_sink.vtk")
+SINK = os.path.join(os.environ["SMG_SOURCE_DIR"], "Examples", "Data", "heat_sink.msh")
 EAR = [-0.0175, 0.187, -0.02]
 
 
@@ -149,7 +149,7 @@ sink.UpdatePipeline()
 sink.UpdatePropertyInformation()
 assert 0 < 20 * sink.GetDataInformation().GetNumberOfPoints() <= sink.GetPropertyValue("FullNumberOfPoints")
 sink.PreviewPoints = 800
-check(sink, {'{"tag": ["Material", 1]}': {"Region": "Tag", "TagArray": "Material", "Tag": 1},
+check(sink, {'{"tag": ["PhysicalTag", 1]}': {"Region": "Tag", "TagArray": "PhysicalTag", "Tag": 1},
              '{"boundary": true}': {"Region": "Boundary"}})
 
 

@@ -49,6 +49,6 @@ def check(reader, **settings):
 
 
 check(OpenDataFile(t.BUNNY), Region="Boundary")
-sink = os.path.join(os.environ["SMG_SOURCE_DIR"], "Examples", "Data", "heat_sink.vtk")
-check(StreamingMeshReader(FileName=sink), Region="Tag", TagArray="Material", Tag=1)
+sink = os.path.join(os.environ["SMG_SOURCE_DIR"], "Examples", "Data", "heat_sink.msh")
+check(StreamingMeshReader(FileName=sink), Region="Tag", TagArray="PhysicalTag", Tag=1)
 print("passed in process", rank)

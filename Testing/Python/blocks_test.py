@@ -39,10 +39,10 @@ class BlocksTest(unittest.TestCase):
     def test_of_a_mesh(self):
         mesh = smg.open(SINK)
         for most in (50, 333, 1_000_000):
-            found, count = self.union(mesh.blocks(max_points=most), most, [], ["Material"])
-            self.assertEqual(count == 1, most > 2116)
+            found, count = self.union(mesh.blocks(max_points=most), most, [], ["PhysicalTag"])
+            self.assertEqual(count == 1, most > 1740)
             self.assertEqual(bits(found["Position"]), bits(mesh.points))
-            self.assertEqual(bits(found["Material"]), bits(mesh["Material"]))
+            self.assertEqual(bits(found["PhysicalTag"]), bits(mesh["PhysicalTag"]))
             np.testing.assert_array_equal(np.sort(found["Corners"]), np.sort(mesh.cells))
 
     def test_of_a_field(self):

@@ -17,11 +17,11 @@ class DisplayTest(unittest.TestCase):
         mesh = smg.open(SINK)
         self.assertIn("not read yet", repr(mesh))
         text = str(mesh)
-        for words in ("2,116", "6,822 tetrahedra", "Material", "[0, 0.034]"):
+        for words in ("1,740", "5,359 tetrahedra", "PhysicalTag", "[0, 0.034]"):
             self.assertIn(words, text)
         self.assertRegex(text, r"bodies +1\n")
         self.assertRegex(text, r"boundary +[0-9,]+ faces, 1 surface\n")
-        self.assertRegex(text, r"Material +int32 x 1, of the cells: \[1, 2\]; 1 \([0-9,]+\), 2 \([0-9,]+\)")
+        self.assertRegex(text, r"PhysicalTag +int64 x 1, of the cells: \[1, 2\]; 1 \([0-9,]+\), 2 \([0-9,]+\)")
         page = self.parse(smg.open(BUNNY)._repr_html_())
         self.assertGreater(len(page.findall(".//svg/path")), 500)
 

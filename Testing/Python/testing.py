@@ -12,7 +12,7 @@ import tempfile
 
 SOURCE = os.environ["SMG_SOURCE_DIR"]
 BUNNY = os.path.join(SOURCE, "Examples", "Data", "bunny.smb")
-SINK = os.path.join(SOURCE, "Examples", "Data", "heat_sink.vtk")
+SINK = os.path.join(SOURCE, "Examples", "Data", "heat_sink.msh")
 
 # Each run begins with an empty folder.
 _FOLDER = tempfile.mkdtemp(dir=".")

@@ -14,11 +14,11 @@ import sys
 
 from paraview_gui import PANEL, PROPERTIES, Session, read_arguments
 
-# Between the layers of the mesh, so that no vertex lies on the border of a region.
+# No vertex lies on the border of a region.
 LOW, HIGH = 0.0011, 0.0051
 CORNER = [0.0101, 0.0102, 0.0001]
 PROBLEM = {
-    "conductivity": [{"value": "K"}, {"tag": ["Material", 2], "value": [200, 180, 190, 1, 2, 3]}],
+    "conductivity": [{"value": "K"}, {"tag": ["PhysicalTag", 2], "value": [200, 180, 190, 1, 2, 3]}],
     "screening": "s",
     "source": [{"value": "f"}, {"sphere": [*CORNER, 0.0101], "value": 4e5}],
     "field": "q",
@@ -26,7 +26,7 @@ PROBLEM = {
     "dirichlet": [{"mask": "held", "value": "given"}, {"nearest": [CORNER], "value": 30}],
     "flux": [{"halfspace": [0, 0, -1, -LOW], "value": 1e5}],
     "robin": [{"halfspace": [0, 0, 1, HIGH], "coefficient": 100, "ambient": 20}],
-    "soft": [{"tag": ["Material", 2], "weight": 1e4, "value": 25}],
+    "soft": [{"tag": ["PhysicalTag", 2], "weight": 1e4, "value": 25}],
     "outputs": ["gradient", "flux"],
 }
 # Every array that the problem names.
@@ -47,9 +47,10 @@ output.CellData.append(np.stack([1e5 * m[:, 1], 1e3 * one, -1e5 * m[:, 2]], axis
 
 
 def make_mesh(simple, plain, path):
-    reader = simple.LegacyVTKReader(FileNames=[plain])
-    arrays = simple.ProgrammableFilter(Input=reader, Script=ARRAYS, CopyArrays=1)
     grid = path[:-4] + ".vtu"
+    subprocess.run([os.environ["SMG_PROGRAM"], "convert", plain, grid, "--quiet"], check=True)
+    reader = simple.XMLUnstructuredGridReader(FileName=[grid])
+    arrays = simple.ProgrammableFilter(Input=reader, Script=ARRAYS, CopyArrays=1)
     simple.SaveData(grid, arrays)
     subprocess.run([os.environ["SMG_PROGRAM"], "convert", grid, path, "--quiet"], check=True)
 
@@ -58,7 +59,7 @@ def by_arrays(simple, mesh):
     """The filter with all properties set except those of a problem file."""
     ends = simple.MeshCondition(Input=mesh, Region="Points", Condition="Dirichlet", Value=30)
     ends.Points = CORNER
-    metal = simple.MeshCondition(Input=ends, Region="Tag", TagArray="Material", Tag=2)
+    metal = simple.MeshCondition(Input=ends, Region="Tag", TagArray="PhysicalTag", Tag=2)
     metal.Condition, metal.Values = "Conductivity", [200, 180, 190, 1, 2, 3]
     warm = simple.MeshCondition(Input=metal, RegionFunction="Sphere", Condition="Source", Value=4e5)
     warm.RegionFunction.Center, warm.RegionFunction.Radius = CORNER, 0.0101
@@ -67,7 +68,7 @@ def by_arrays(simple, mesh):
     air = simple.MeshCondition(Input=heating, RegionFunction="Plane", Condition="Robin", Value=20)
     air.RegionFunction.Origin, air.RegionFunction.Normal = [0, 0, HIGH], [0, 0, -1]
     air.Coefficient = 100
-    soft = simple.MeshCondition(Input=air, Region="Tag", TagArray="Material", Tag=2)
+    soft = simple.MeshCondition(Input=air, Region="Tag", TagArray="PhysicalTag", Tag=2)
     soft.Condition, soft.Value, soft.Coefficient = "Soft", 25, 1e4
     return simple.StreamingPoisson(
         Input=soft, ConductivityArray=["CELLS", "K"], ScreeningArray=["POINTS", "s"],

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The steps of docs/solve.md in the real ParaView: converts the heat sink, says by four conditions
-what holds where, solves, and saves the mesh with its temperatures.
+"""The steps of docs/solve.md in the real ParaView: converts the heat sink, says by five conditions
+what holds in which group, solves, and saves the mesh with its temperatures.
 
     heat.py PLUGIN MESH FOLDER [--pictures FOLDER] [--guard POINTS] [--timeout SECONDS]
 
@@ -12,20 +12,17 @@ import sys
 
 from paraview_gui import PROPERTIES, Session, read_arguments
 
-FUNCTION = "RegionFunction/ProxySelectionWidget/"
-PLANE = FUNCTION + "frame/ChosenProxyWidget/InteractivePlane/"
 
-
-def hold(session, condition, value, height, inside_out=False):
-    """A condition on one side of a horizontal plane."""
+def hold(session, group, condition, value, coefficient=None):
+    """A condition in a group."""
     session.filter("MeshCondition")
-    session.event(f"{PROPERTIES}/{FUNCTION}comboBox", "set_string", "Plane")
-    session.write_vector(PLANE + "origin", "XYZ", (0, 0, height))
-    session.event(f"{PROPERTIES}/{PLANE}useZNormal", "activate")
-    if inside_out:
-        session.event(f"{PROPERTIES}/InsideOut/CheckBox", "set_boolean", "true")
+    session.choose("Region", "Group")
+    session.choose("GroupName", group)
     session.choose("Condition", condition)
     session.write("Value/DoubleLineEdit0", value)
+    if coefficient is not None:
+        session.write("Coefficient/DoubleLineEdit0", coefficient)
+    session.apply()
 
 
 def play(arguments):
@@ -37,28 +34,12 @@ def play(arguments):
     session.name_file("OutputFileName", os.path.join(folder, "heat_sink.vsm"))
     session.apply()
 
-    session.filter("MeshCondition")
-    session.choose("Region", "Everywhere")
-    session.choose("Condition", "Conductivity")
-    session.write("Value/DoubleLineEdit0", 25)
-    session.apply()
-
-    session.filter("MeshCondition")
-    session.choose("Region", "Tag")
-    session.choose("TagArray", "Material")
-    session.write("Tag/DoubleLineEdit0", 2)
-    session.choose("Condition", "Conductivity")
-    session.write("Value/DoubleLineEdit0", 200)
-    session.apply()
-    session.picture("heat-tag")
-
-    hold(session, "Flux", 100000, 0.001)
-    session.apply()
-    session.checkpoint("heated")
-
-    hold(session, "Robin", 20, 0.005, inside_out=True)
-    session.write("Coefficient/DoubleLineEdit0", 100)
-    session.apply()
+    hold(session, "chip", "Conductivity", 25)
+    hold(session, "heat sink", "Conductivity", 200)
+    session.picture("heat-part")
+    hold(session, "chip", "Source", 5e7)
+    hold(session, "solder", "Flux", -10000)
+    hold(session, "air", "Robin", 20, 50)
     session.checkpoint("cooled")
     session.picture("heat-conditions")
 
@@ -85,29 +66,21 @@ import json
 from paraview.simple import *
 
 
-def held(count):
+def cooled():
     condition = GetActiveSource()
     condition.UpdatePropertyInformation()
-    assert condition.GetPropertyValue("NumberOfHeldPoints") == count
+    assert list(condition.GetPropertyValue("GroupNames")) == ["solder", "air", "chip", "heat sink"]
     Render()
-
-
-def heated():
-    held(64)
-
-
-def cooled():
-    held(1404)
 
 
 def solved():
     heat = GetActiveSource()
     heat.UpdatePropertyInformation()
     report = json.loads(heat.GetPropertyValue("Report"))
-    assert report["converged"] and report["vertices"] == 2116, report
-    heating, air = report["conditions"]
-    assert (heating["name"], air["name"]) == ("flux[0]", "robin[0]")
-    assert abs(heating["flux"][0] - 19.6) < 1e-6 and abs(air["flux"][0] + 19.6) < 1e-6, report
-    assert 67 < report["maximum"][0]["value"] < 68, report
+    assert report["converged"] and report["vertices"] == 1740, report
+    board, air = report["conditions"]
+    assert (board["name"], air["name"]) == ("flux[0] (solder)", "robin[0] (air)")
+    assert abs(board["flux"][0] + 1.96) < 1e-9 and abs(air["flux"][0] + 17.64) < 1e-6, report
+    assert 77 < report["maximum"][0]["value"] < 78, report
     assert {"Gradient", "Flux"} <= set(heat.CellData.keys())
     Render()

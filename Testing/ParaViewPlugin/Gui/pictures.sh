@@ -25,7 +25,7 @@ while read -r session mesh lesson pictures; do
 done << 'END'
 deformation bunny.smb Deformation opened=opened handles=handles deformed=deformed dragged=dragged reopened=reopened
 poisson bunny.smb HarmonicField condition-1=condition solved-in-full=solved last-solve=last-solve
-heat heat_sink.vtk HeatConduction heat-tag=tag heat-conditions=air heat-solved=solved
+heat heat_sink.msh HeatConduction heat-part=part heat-conditions=air heat-solved=solved
 smoothing bunny.smb Smoothing smoothing-defaults=defaults smoothing-size=size smoothing-outcome=outcome
 blending bunny.smb Blending blending-recorded=recorded blending-blended=blended
 distance bunny.smb Distance distance-region=region distance-boundary=boundary
