@@ -64,8 +64,14 @@ bool isOfCells(const Where& where, const MeshColumns& columns)
 {
   if (const auto* group = std::get_if<InGroup>(&where))
   {
-    return std::ranges::any_of(group->names, [&](const std::string& name)
-      { return !columns.groups().find(name, GroupOf::Cells).empty(); });
+    const auto is = [&](const std::string& name, GroupOf kind)
+    { return !columns.groups().find(name, kind).empty(); };
+    return std::ranges::any_of(group->names,
+      [&](const std::string& name)
+      {
+        return is(name, GroupOf::Cells) ||
+               (is(name, GroupOf::Facets) && !is(name, GroupOf::Vertices));
+      });
   }
   if (const auto* combined = std::get_if<Combination>(&where))
   {
@@ -124,7 +130,10 @@ std::unique_ptr<Selection> selectionOf(
       std::ranges::find_if(kinds, [&](GroupOf kind) { return !groups.find(name, kind).empty(); });
     if (named == kinds.end())
     {
-      columns.fail(key + ".group", whyNoGroup(name, groups));
+      const bool isOfFacets = !groups.find(name, GroupOf::Facets).empty();
+      columns.fail(key + ".group",
+        whyNoGroup(name, groups) +
+          (isOfFacets && key.starts_with("source") ? "; a source on facets is a flux" : ""));
     }
     for (const std::uint32_t group : groups.find(name, *named))
     {

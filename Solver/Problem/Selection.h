@@ -68,8 +68,9 @@ inline const std::string* columnOf(const Where& where)
 /** The names of the groups of a place, for messages and reports; "": it is another. */
 std::string groupNames(const Where& where);
 
-/** Whether a part of the mesh is one of cells: by a column of theirs or by a group, or if any part
- * is of which it consists. Columns of the vertices take precedence, groups of cells as well. */
+/** Whether a density with this part of the mesh is one in cells: by a column of theirs or by a
+ * group, or if any part is of which it consists. Columns of the vertices take precedence, groups of
+ * cells as well. So is one with a group of facets alone, where no density can be. */
 bool isOfCells(const Where& where, const MeshColumns& columns);
 
 /** A range of the cells of a block with their `corners`. */

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/IO/GroupedGmsh.h"
+#include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "smg/Convert.h"
 #include "smg/DescribedProblem.h"
@@ -86,6 +87,10 @@ void InnerFacets::expectFilm(const Where& film, std::vector<PlacedValue> later, 
       EXPECT_NEAR(values[v], top * (at < Film ? at / Film : (far - at) / (far - Film)), 1e-7);
     }
   }
+  wall.source = { { InGroup{ { "9" } }, 3.0 } };
+  expectError([&] { solve(reader, wall, options); },
+    "source[0].group: the group '9' is of facets, but cells are needed here; a source on facets is "
+    "a flux");
 }
 
 } // namespace smg::testing
