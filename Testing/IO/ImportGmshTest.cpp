@@ -182,6 +182,22 @@ TEST_F(ImportGmsh, EntitiesTellThePhysicalGroups)
   }
 }
 
+TEST_F(ImportGmsh, ABorderBetweenPartsIsInNoGroup)
+{
+  const ReadMesh mesh = this->gmsh(
+    Format4 + "$PhysicalNames\n1\n3 5 \"body\"\n$EndPhysicalNames\n"
+              "$PartitionedEntities\n2\n0\n0 0 1 2\n"
+              "3 3 1 2 1 2 0 0 0 1 1 1 1 5 0\n"
+              "2 3 1 1 1 0 0 0 1 1 1 1 5 0\n3 3 1 1 2 0 0 0 1 1 1 1 5 0\n$EndPartitionedEntities\n"
+              "$Nodes\n1 5 1 5\n3 2 0 5\n1\n2\n3\n4\n5\n"
+              "0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 0 -1\n$EndNodes\n"
+              "$Elements\n3 3 1 3\n2 3 2 1\n1 1 2 3\n3 2 4 1\n2 1 2 3 4\n3 3 4 1\n3 1 3 2 5\n"
+              "$EndElements\n");
+  EXPECT_EQ(mesh.groups.groups, (std::vector<Group>{ { "body", 5, GroupOf::Cells } }));
+  EXPECT_EQ(mesh.facets.size(), 0u);
+  EXPECT_EQ(mesh.counts.droppedCells, 1);
+}
+
 TEST_F(ImportGmsh, TheGroupsOfVeryManyEntitiesCountWithinTheMemory)
 {
   const auto with = [](int points)

@@ -159,9 +159,11 @@ void GmshTags::readEntity(GmshInput& input, std::size_t dimension, bool isPartit
     }
   };
   const std::int64_t entity = input.integer("the tag of an entity");
+  bool isBorder = false; // between parts: it has the tags of groups of what was cut
   if (isPartitioned)
   {
-    input.integer("the dimension of the entity that was cut");
+    isBorder = input.integer("the dimension of the entity that was cut") >
+               static_cast<std::int64_t>(dimension);
     input.integer("the tag of the entity that was cut");
     skipIntegers("the number of partitions of an entity", "a partition");
   }
@@ -173,7 +175,11 @@ void GmshTags::readEntity(GmshInput& input, std::size_t dimension, bool isPartit
   const std::int64_t groups = input.count("the number of physical groups", 2, 4);
   for (std::int64_t k = 0; k < groups; ++k)
   {
-    this->addGroup(dimension, entity, input.integer("the tag of a physical group"));
+    const std::int64_t group = input.integer("the tag of a physical group");
+    if (!isBorder)
+    {
+      this->addGroup(dimension, entity, group);
+    }
   }
   if (dimension > 0)
   {
