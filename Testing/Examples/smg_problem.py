@@ -5,6 +5,7 @@ solutions are linear: linear finite elements find them up to the tolerance."""
 
 import json
 import os
+import re
 import sys
 
 from program import load, read_vtk_xml, run
@@ -82,6 +83,17 @@ def test_what_is_unknown():
     with open("report.html", encoding="utf-8") as file:
         page = file.read()
     assert "unknown" in page and "not a number" not in page
+
+
+def test_cells_without_a_conductivity():
+    """They have 1, which is said."""
+    for others, says in ([], True), ([{"value": 1}], False):
+        problem = {"conductivity": [*others, {"tag": ["layer", 2], "value": 10}], "dirichlet": [BOTTOM, TOP]}
+        with open("problem.json", "w", encoding="utf-8") as file:
+            json.dump(problem, file)
+        said = run("solve", "cube.vsm", "out.vtu", "--problem", "problem.json").stdout
+        line = r"^the conductivity is 1 in [0-9]+ % of the mesh, where none of its entries holds$"
+        assert bool(re.search(line, said, re.M)) == says, said
 
 
 def test_two_materials():

@@ -557,6 +557,12 @@ void ResultSums::reportParts(Report& report) const
         this->Parts[p]);
     }
   }
+  if (last > 0 && this->Parts[last].measure > 0.0)
+  {
+    report.notes.push_back("the conductivity is 1 in " +
+                           percent(this->Parts[last].measure / all.measure) +
+                           " % of the mesh, where none of its entries holds");
+  }
 }
 
 void ResultSums::reportIntegrals(Report& report) const
