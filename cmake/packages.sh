@@ -18,7 +18,7 @@ smg_paraview_packages=(
   qttools5-dev qttools5-dev-tools qtxmlpatterns5-dev-tools) # the help of the plugin, with Qt 5
 smg_test_packages=(
   libgtest-dev libbenchmark-dev libmeshoptimizer-dev lld clang-format doxygen openmpi-bin libopenmpi-dev libhypre-dev
-  xz-utils
+  xz-utils gmsh calculix-ccx
   python3 python3-jsonschema python3-numpy python3-scipy python3-getfem python3-matplotlib python3-meshio python3-pip
   python3-venv python3-tqdm mypy)
 smg_benchmark_packages=(

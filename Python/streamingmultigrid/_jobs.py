@@ -82,6 +82,8 @@ class Job:
         except TypeError as error:
             for_files = [each for each in options if each in _OF_SAVING]
             hint = "; it is one of save()" if for_files else ""
+            if arguments and "problem" in self._options:
+                hint += "; they are named, as problem=\"heat.json\""
             raise TypeError("%s() %s%s" % (self.name, error, hint)) from None
         bound.apply_defaults()
         return dict(bound.arguments)

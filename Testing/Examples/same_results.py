@@ -67,7 +67,7 @@ def heat(mesh, result):
             for key in "area", "measure":
                 assert math.isclose(kept.get(key, 1), made.get(key, 1), rel_tol=1e-9), (kept, made)
         peaks = [report["maximum"][0]["value"] for report in reports]
-        assert abs(peaks[0] - peaks[1]) < 0.2, peaks
+        assert abs(peaks[0] - peaks[1]) < 0.5, peaks
     conductivity = {1: 25.0, 2: 200.0}
     for (material,), gradient, flux in zip(result["PhysicalTag"], result["Gradient"], result["Flux"]):
         assert all(abs(f + conductivity[material] * g) <= 1e-12 * abs(f) for g, f in zip(gradient, flux))

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What documents show in Python runs as it stands: the blocks of docs/python.md and of the README, one
+"""What documents show in Python runs as it stands: the blocks of docs/python.md, of the README and of pages on groups, one
 after the other, and the notebook."""
 
 import json
 import os
+import shutil
 import unittest
 
-from testing import SOURCE, need
+from testing import SINK, SOURCE, need
 
 need("matplotlib")
 import matplotlib  # noqa: E402
@@ -36,6 +37,13 @@ class Documents(unittest.TestCase):
         text = blocks("README.md", "streamingmultigrid as smg")
         self.assertIn("solve", text)
         run(text, "README.md")
+
+    def test_pages_on_groups(self):
+        shutil.copy(SINK, "heat_sink.msh")
+        for page in ("docs/groups.md", "Examples/CalculiX/README.md"):
+            text = blocks(page, "solve")
+            self.assertIn("smg.group", text)
+            run(text, page)
 
     def test_the_notebook_has_its_picture(self):
         path = os.path.join(SOURCE, "Examples", "Notebook", "scan_to_picture.ipynb")
