@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 
 namespace smg
 {
@@ -14,29 +15,6 @@ namespace
 
 constexpr std::uint32_t NoGroup = UINT32_MAX;
 constexpr std::size_t LongestName = 1024;
-
-// Groups and sets are in the header of a .vsm file, which has room for 16 KiB of JSON.
-constexpr std::size_t MostGroupBytes = 11000, MostSetBytes = 3500;
-
-/** About the bytes of a set in JSON. */
-std::size_t bytesOfSet(const std::vector<std::uint32_t>& set)
-{
-  constexpr std::size_t Digits = 4; // and a comma
-  return 2 + Digits * set.size();
-}
-
-/** Whether another group fits beside these. */
-template <class Groups>
-bool hasRoom(const Groups& groups, std::size_t nameBytes)
-{
-  constexpr std::size_t BesidesName = 38; // kind and number, and the set of the group alone
-  std::size_t bytes = BesidesName + nameBytes;
-  for (const auto& group : groups)
-  {
-    bytes += BesidesName + group.name.size();
-  }
-  return bytes <= MostGroupBytes;
-}
 
 /** The name as text without control characters. */
 std::string cleaned(const std::string& name)
@@ -56,6 +34,7 @@ GroupSets::GroupSets(std::vector<std::vector<std::uint32_t>> sets)
 {
   for (std::size_t number = 0; number < this->Sets.size(); ++number)
   {
+    this->Members += this->Sets[number].size();
     this->Numbers.emplace(this->Sets[number], static_cast<GroupSet>(number));
   }
 }
@@ -67,17 +46,13 @@ GroupSet GroupSets::numberOf(std::vector<std::uint32_t> set)
   {
     return found->second;
   }
-  std::size_t bytes = 0; // of sets of several groups: the others are counted with these
-  for (const std::vector<std::uint32_t>& other : this->Sets)
-  {
-    bytes += other.size() > 1 ? bytesOfSet(other) : 0;
-  }
-  if (this->Sets.size() > Most || (set.size() > 1 && bytes + bytesOfSet(set) > MostSetBytes))
+  if (this->Sets.size() > Most || this->Members + set.size() > MostMembers)
   {
     this->IsFull = true;
     return 0;
   }
   const auto number = static_cast<GroupSet>(this->Sets.size());
+  this->Members += set.size();
   this->Sets.push_back(set);
   this->Numbers.emplace(std::move(set), number);
   return number;
@@ -93,6 +68,11 @@ GroupSet GroupSets::join(GroupSet a, GroupSet b)
   {
     return b;
   }
+  constexpr std::size_t MostJoined = std::size_t(1) << 20;
+  if (this->Joined.size() >= MostJoined)
+  {
+    this->Joined.clear(); // only remembers
+  }
   const auto [found, isNew] = this->Joined.try_emplace({ std::min(a, b), std::max(a, b) }, 0);
   if (isNew)
   {
@@ -105,9 +85,20 @@ GroupSet GroupSets::join(GroupSet a, GroupSet b)
 
 std::string GroupSets::overflowNote()
 {
-  return "The file has more groups, or combinations of them, than a mesh has room for: those "
-         "beyond "
-         "are left out.";
+  return "The file has more than " + std::to_string(Most) +
+         " groups and combinations of them, which is what a mesh has room for, or names of more "
+         "than " +
+         mebibytes(GroupTable::MostNameBytes) + ": those beyond are left out.";
+}
+
+bool GroupTable::fits(std::size_t nameBytes) const
+{
+  return this->NameBytes + nameBytes <= MostNameBytes;
+}
+
+bool GroupTable::hasRoom(std::size_t nameBytes) const
+{
+  return this->Groups.size() < Most && this->fits(nameBytes);
 }
 
 std::uint32_t GroupTable::ofNumber(int dimension, std::int64_t number)
@@ -129,7 +120,7 @@ GroupSet GroupTable::numbered(int dimension, std::int64_t number)
     this->LastNumber = { dimension, number };
     // One that does not fit is not even listed: labels may be as many as cells.
     const bool fits = this->ByNumber[static_cast<std::size_t>(dimension)].contains(number) ||
-                      (!this->IsFull && hasRoom(this->Groups, 0));
+                      (!this->IsFull && this->hasRoom(0));
     this->IsFull = this->IsFull || !fits;
     this->LastSet = fits ? this->Sets.numberOf({ this->ofNumber(dimension, number) }) : None;
   }
@@ -146,12 +137,13 @@ GroupSet GroupTable::named(int dimension, const std::string& text)
   {
     return this->Sets.numberOf({ found->second });
   }
-  if (!hasRoom(this->Groups, name.size()))
+  if (!this->hasRoom(name.size()))
   {
     this->IsFull = true;
     return None;
   }
   names.emplace(name, next);
+  this->NameBytes += name.size();
   this->Groups.push_back({ dimension, name, std::nullopt });
   return this->Sets.numberOf({ next });
 }
@@ -159,8 +151,17 @@ GroupSet GroupTable::named(int dimension, const std::string& text)
 void GroupTable::setName(int dimension, std::int64_t number, const std::string& text)
 {
   const std::string name = cleaned(text);
-  if (this->numbered(dimension, number) != None && hasRoom(this->Groups, name.size()))
+  if (this->numbered(dimension, number) == None)
   {
+    return;
+  }
+  if (!this->fits(name.size()))
+  {
+    this->IsFull = true;
+  }
+  else
+  {
+    this->NameBytes += name.size();
     const std::uint32_t group = this->ofNumber(dimension, number);
     this->Groups[group].name = name;
     this->ByName[static_cast<std::size_t>(dimension)].emplace(name, group);
@@ -172,8 +173,30 @@ void GroupTable::include(int dimension, std::int64_t number, const std::string& 
   const GroupSet part = this->numbered(dimension, number), whole = this->named(dimension, name);
   if (part != None && whole != None && this->Inclusions.size() < Most)
   {
-    this->Inclusions.emplace_back(this->Sets.all()[part].front(), this->Sets.all()[whole].front());
+    this->Inclusions.emplace(this->Sets.all()[part].front(), this->Sets.all()[whole].front());
   }
+}
+
+/** Adds the larger groups of those in a set, and theirs. */
+void GroupTable::addWholes(std::vector<std::uint32_t>& set) const
+{
+  if (this->Inclusions.empty())
+  {
+    return;
+  }
+  std::set<std::uint32_t> all(set.begin(), set.end());
+  for (std::size_t k = 0; k < set.size(); ++k)
+  {
+    const auto [begin, end] = this->Inclusions.equal_range(set[k]);
+    for (auto at = begin; at != end; ++at)
+    {
+      if (all.insert(at->second).second)
+      {
+        set.push_back(at->second);
+      }
+    }
+  }
+  set.assign(all.begin(), all.end());
 }
 
 MeshGroups GroupTable::finish(CellType cells) const
@@ -196,13 +219,7 @@ MeshGroups GroupTable::finish(CellType cells) const
   result.sets = this->Sets.all();
   for (std::vector<std::uint32_t>& set : result.sets)
   {
-    for (const auto& [part, whole] : this->Inclusions)
-    {
-      if (std::ranges::binary_search(set, part) && !std::ranges::binary_search(set, whole))
-      {
-        set.insert(std::ranges::lower_bound(set, whole), whole);
-      }
-    }
+    this->addWholes(set);
     for (std::uint32_t& group : set)
     {
       group = kept[group];

@@ -21,6 +21,8 @@ class GroupSets
 public:
   /** The most sets of any group. */
   static constexpr std::size_t Most = 65535;
+  /** The most groups in all sets together. */
+  static constexpr std::size_t MostMembers = std::size_t(1) << 22;
 
   explicit GroupSets(std::vector<std::vector<std::uint32_t>> sets = { {} });
 
@@ -37,6 +39,7 @@ public:
 
 private:
   std::vector<std::vector<std::uint32_t>> Sets;
+  std::size_t Members = 0; ///< of all sets
   std::map<std::vector<std::uint32_t>, GroupSet> Numbers;
   std::map<std::pair<GroupSet, GroupSet>, GroupSet> Joined;
   bool IsFull = false;
@@ -54,6 +57,8 @@ public:
   static constexpr GroupSet None = 0;
   /** The most groups. */
   static constexpr std::size_t Most = GroupSets::Most;
+  /** The most bytes of all names: groups are in memory. */
+  static constexpr std::size_t MostNameBytes = std::size_t(16) << 20;
   static constexpr int Dimensions = 4;
 
   /** The set of the group of this number alone, which is made if need be. */
@@ -82,11 +87,15 @@ private:
     std::optional<std::int64_t> number;
   };
 
+  bool fits(std::size_t nameBytes) const;
+  bool hasRoom(std::size_t nameBytes) const;
   std::uint32_t ofNumber(int dimension, std::int64_t number);
+  void addWholes(std::vector<std::uint32_t>& set) const;
 
   std::vector<Entry> Groups;
   GroupSets Sets;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> Inclusions; ///< a group and the larger one
+  std::size_t NameBytes = 0;
+  std::multimap<std::uint32_t, std::uint32_t> Inclusions; ///< a group and a larger one
   std::array<std::map<std::int64_t, std::uint32_t>, Dimensions> ByNumber;
   std::array<std::map<std::string, std::uint32_t>, Dimensions> ByName;
   /** The group asked for last, whose elements usually follow each other. */

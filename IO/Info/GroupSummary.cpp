@@ -102,20 +102,19 @@ void GroupSummary::addCells(const MeshBlock& block, const MeshMeasures& points)
 
 std::vector<MeshDescription::Group> GroupSummary::result() const
 {
-  std::vector<MeshDescription::Group> result;
-  for (const Group& group : this->Info.groups.groups)
+  const MeshGroups& all = this->Info.groups;
+  std::vector<MeshDescription::Group> result(all.groups.size());
+  for (std::size_t g = 0; g < result.size(); ++g)
   {
-    MeshDescription::Group& sum = result.emplace_back();
-    sum.group = group;
-    const auto number = static_cast<std::uint32_t>(result.size() - 1);
-    const auto& sizes = this->Sets[std::size_t(group.of)];
-    for (std::size_t set = 0; set < sizes.size(); ++set)
+    result[g].group = all.groups[g];
+  }
+  for (std::size_t set = 0; set < all.sets.size(); ++set)
+  {
+    for (const std::uint32_t g : all.sets[set])
     {
-      if (std::ranges::binary_search(this->Info.groups.sets[set], number))
-      {
-        sum.count += sizes[set].count;
-        sum.measure += sizes[set].measure;
-      }
+      const Size& size = this->Sets[std::size_t(all.groups[g].of)][set];
+      result[g].count += size.count;
+      result[g].measure += size.measure;
     }
   }
   return result;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <string>
 
 namespace smg
@@ -67,6 +68,12 @@ MeshGroups groupsOf(const nlohmann::json& json)
         group.number = entry.at("number").get<std::int64_t>();
       }
       result.groups.push_back(std::move(group));
+    }
+    constexpr std::size_t MostSets = std::numeric_limits<GroupSet>::max();
+    if (json.at("sets").size() > MostSets)
+    {
+      throw MeshError("has " + std::to_string(json.at("sets").size()) +
+                      " sets of groups, but may have " + std::to_string(MostSets));
     }
     for (const nlohmann::json& set : json.at("sets"))
     {

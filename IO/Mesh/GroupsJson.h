@@ -6,6 +6,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <cstdint>
 #include <string>
 
 namespace smg
@@ -18,6 +19,9 @@ nlohmann::json jsonOf(const MeshGroups& groups);
 /** The groups that jsonOf() has described. Throws MeshError if it is no such
  * description. */
 MeshGroups groupsOf(const nlohmann::json& json);
+
+/** The most bytes of the text: groups are in memory. */
+inline constexpr std::int64_t MaxGroupTextBytes = std::int64_t(64) << 20;
 
 /** The same as text. */
 SMG_EXPORT std::string textOf(const MeshGroups& groups);

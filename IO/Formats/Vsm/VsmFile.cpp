@@ -214,7 +214,7 @@ void VsmFile::readTables()
   const ScalarType real = positionType(this->Info.doublePositions);
   const std::vector<ColumnSpec> blockColumns{ { "FirstVertex", ScalarType::Int64, 1 },
     { "Finalized", ScalarType::Int64, 1 } };
-  const std::size_t most = VsmFormat::MinTables + 1;
+  const std::size_t most = VsmFormat::Groups + 1;
   if (tables.size() < VsmFormat::MinTables || tables.size() > most ||
       first(VsmFormat::Vertices) != ColumnSpec{ "Position", real, 3 } ||
       first(VsmFormat::Last) != ColumnSpec{ "LastCell", ScalarType::UInt8, 0 } ||
@@ -237,13 +237,37 @@ void VsmFile::readTables()
   { return std::vector(tables[table].columns.begin() + 1, tables[table].columns.end()); };
   this->Info.vertexColumns = attributes(VsmFormat::Vertices);
   this->Info.cellColumns = attributes(VsmFormat::Cells);
-  this->HasIsolated = tables.size() == most;
+  this->HasIsolated = tables.size() > VsmFormat::Isolated;
   if (this->HasIsolated && tables[VsmFormat::Isolated] != IsolatedWriter::table(this->Info))
   {
     this->fail("has isolated vertices that are not like the others; make it anew.");
   }
-  this->checkColumns();
   this->checkBlocks();
+  if (tables.size() > VsmFormat::Groups)
+  {
+    this->readGroups();
+  }
+  this->checkColumns();
+}
+
+void VsmFile::readGroups()
+{
+  BlockFileReader& blocks = this->Blocks;
+  if (blocks.tables()[VsmFormat::Groups] != groupTable() || blocks.rows(VsmFormat::Groups) != 1 ||
+      blocks.columnBytes(VsmFormat::Groups, 0, 0) > std::size_t(MaxGroupTextBytes))
+  {
+    this->fail("has a table of groups that is not one text; make it anew.");
+  }
+  std::string text(blocks.columnBytes(VsmFormat::Groups, 0, 0), '\0');
+  blocks.read(VsmFormat::Groups, 0, 0, std::as_writable_bytes(std::span(text)));
+  try
+  {
+    this->Info.groups = groupsOfText(text);
+  }
+  catch (const MeshError& error)
+  {
+    this->fail(std::string(error.what()) + "; make it anew.");
+  }
 }
 
 /** Blocks are read as a whole: what takes no room in the file must not take all memory. */

@@ -93,6 +93,9 @@ public:
     return this->find(this->Info.cellColumns, name, "cell");
   }
 
+  /** The table of the groups. */
+  static TableSpec groupTable() { return { "groups", { { "Json", ScalarType::UInt8, 0 } } }; }
+
   StreamInfo Info;
   double MeanWidth = 0;
   BlockFileReader Blocks;
@@ -100,6 +103,7 @@ public:
 private:
   void readHeader();
   void readTables();
+  void readGroups();
   void checkColumns() const;
   void checkGroups() const;
   void checkBlocks() const;

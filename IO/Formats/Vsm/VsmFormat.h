@@ -20,6 +20,8 @@ namespace smg
  * - isolated: the vertices of no cell, which are not part of the stream: `Id`, the index in the
  *   original file (int64), `Position`, then the attribute columns like those of the vertices. Files
  * of the first four tables only have no such vertices.
+ * - groups: one row, `Json`, the text of the groups and their sets (IO/Mesh/GroupsJson.h). Only
+ * files with groups have it; older ones have them in the header.
  *
  * VsmBlockRows (VsmBuffers.h) has the rows of the blocks. The header contains kind, cell
  * ("triangle" or "tetrahedron"), precision ("float32" or "float64"), vertices, cells, bounds (xmin,
@@ -35,7 +37,8 @@ struct VsmFormat
     Last,
     Cells,
     Blocks,
-    Isolated
+    Isolated,
+    Groups
   };
   /** The number of tables of every file. */
   static constexpr int MinTables = Isolated;

@@ -2,9 +2,11 @@
 #include "IO/Formats/Vsm/VsmWriter.h"
 
 #include "IO/Formats/Vsm/PackedIntegers.h"
+#include "IO/Formats/Vsm/VsmFile.h"
 #include "IO/Formats/Vsm/VsmFormat.h"
 #include "IO/Mesh/Columns.h"
 #include "IO/Mesh/GroupsJson.h"
+#include "Solver/Core/Text.h"
 #include "smg/Error.h"
 
 #include <nlohmann/json.hpp>
@@ -66,10 +68,15 @@ std::vector<TableSpec> tablesOf(const StreamInfo& info, const std::string& file)
   const ScalarType real = positionType(info.doublePositions);
   const ColumnSpec firstVertex{ "FirstVertex", ScalarType::Int64, 1 };
   const ColumnSpec finalized{ "Finalized", ScalarType::Int64, 1 };
-  return { tableWith("vertices", { "Position", real, 3 }, info.vertexColumns),
+  std::vector<TableSpec> tables{ tableWith("vertices", { "Position", real, 3 }, info.vertexColumns),
     tableWith("last", { "LastCell", ScalarType::UInt8, 0 }, {}),
     tableWith("cells", { "Corners", ScalarType::UInt8, 0 }, info.cellColumns),
     tableWith("blocks", firstVertex, { finalized }), IsolatedWriter::table(info) };
+  if (!info.groups.empty())
+  {
+    tables.push_back(VsmFile::groupTable());
+  }
+  return tables;
 }
 
 } // namespace
@@ -300,6 +307,23 @@ void VsmWriter::isolated(std::span<const std::int64_t> ids, std::span<const doub
   this->Isolated.append(this->File, ids, positions, columns);
 }
 
+void VsmWriter::writeGroups()
+{
+  if (this->Info.groups.empty())
+  {
+    return;
+  }
+  const std::string text = textOf(this->Info.groups);
+  if (std::ssize(text) > MaxGroupTextBytes)
+  {
+    this->fail("the groups of the mesh take " + mebibytes(std::ssize(text)) +
+               ", but a file has room for " + mebibytes(MaxGroupTextBytes) +
+               ": leave some out, or give them shorter names.");
+  }
+  const std::span<const std::byte> column = std::as_bytes(std::span(text));
+  this->File.append(VsmFormat::Groups, 1, { &column, 1 });
+}
+
 StreamInfo VsmWriter::finish(const std::string& origin)
 {
   StreamInfo& info = this->Info;
@@ -327,6 +351,7 @@ StreamInfo VsmWriter::finish(const std::string& origin)
   }
   this->writeBlockTable();
   this->Isolated.finish(this->File);
+  this->writeGroups();
   const StreamStatistics::Result alive = this->Statistics.result();
   info.width = alive.width;
   this->MeanWidth = alive.mean;
@@ -338,10 +363,6 @@ StreamInfo VsmWriter::finish(const std::string& origin)
   if (!origin.empty())
   {
     header["origin"] = origin;
-  }
-  if (!this->Info.groups.empty())
-  {
-    header.update(jsonOf(this->Info.groups));
   }
   this->File.finish(header.dump());
   return info;

@@ -87,6 +87,7 @@ private:
   void flushLast();
   void flushCells();
   void writeBlockTable();
+  void writeGroups();
 
   std::string Name;
   StreamInfo Info; ///< what has been appended so far

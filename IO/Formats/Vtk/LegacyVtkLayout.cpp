@@ -3,6 +3,7 @@
 #include "IO/Formats/Vtk/LegacyVtkScanner.h"
 #include "IO/Formats/Vtk/VtkAttributes.h"
 #include "IO/Formats/Vtk/VtkLayout.h"
+#include "IO/Mesh/GroupsJson.h"
 
 #include <limits>
 #include <string>
@@ -315,9 +316,11 @@ private:
     const bool areBits = type == "bit", areTexts = type == "string" || type == "utf8_string";
     if (areBits || areTexts)
     {
+      const bool areGroups = areTexts && !arrays && name == MeshGroupsName;
       std::string text;
-      areBits ? this->Scanner.skipBits(values) : void(text = this->Scanner.skipTexts(values));
-      this->GroupsText = !arrays && name == MeshGroupsName ? text : this->GroupsText;
+      areBits ? this->Scanner.skipBits(values)
+              : void(text = this->Scanner.skipTexts(values, areGroups ? MaxGroupTextBytes : 0));
+      this->GroupsText = areGroups ? text : this->GroupsText;
       if (arrays && arrays == this->Arrays && this->OtherArrays.size() < MaxOtherArrays)
       {
         this->OtherArrays.insert(name);

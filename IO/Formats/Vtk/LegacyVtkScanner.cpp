@@ -18,7 +18,6 @@ namespace
 {
 
 /** The maximum length of words and lines of keywords and names. */
-constexpr std::size_t MaxLineBytes = 4096;
 
 struct TypeName
 {
@@ -168,7 +167,7 @@ std::string LegacyVtkScanner::name()
   return decodedVtkName(this->word());
 }
 
-std::string LegacyVtkScanner::line()
+std::string LegacyVtkScanner::line(std::size_t most)
 {
   std::string line;
   for (;;)
@@ -176,7 +175,7 @@ std::string LegacyVtkScanner::line()
     const std::string_view text = this->File.at(this->At);
     const std::size_t end = text.find(this->LineEnd);
     const std::string_view part = text.substr(0, end);
-    line += part.substr(0, MaxLineBytes - std::min(MaxLineBytes, line.size()));
+    line += part.substr(0, most - std::min(most, line.size()));
     this->At += part.size();
     if (end != std::string_view::npos)
     {
@@ -261,9 +260,9 @@ void LegacyVtkScanner::skipBits(std::int64_t bits)
   this->array("bits", "unsigned_char", 1, bits);
 }
 
-std::string LegacyVtkScanner::skipTexts(std::int64_t texts)
+std::string LegacyVtkScanner::skipTexts(std::int64_t texts, std::size_t most)
 {
-  constexpr std::uint64_t Longest = std::uint64_t(1) << 20;
+  constexpr std::size_t MostEncoded = 3; // characters of a byte
   std::string last;
   this->line();
   for (std::int64_t i = 0; i < texts; ++i)
@@ -275,7 +274,7 @@ std::string LegacyVtkScanner::skipTexts(std::int64_t texts)
     }
     if (!this->Binary)
     {
-      last = decodedVtkName(this->line());
+      last = decodedVtkName(this->line(MostEncoded * most));
       continue;
     }
     // The two highest bits encode the number of bytes of the length: 8, 4, 2 or 1.
@@ -288,7 +287,11 @@ std::string LegacyVtkScanner::skipTexts(std::int64_t texts)
     this->skipBytes(bytes, 1);
     const std::size_t begin = this->At;
     this->skipBytes(static_cast<std::int64_t>(length), 1);
-    last = length > Longest ? "" : this->File.at(begin, length).substr(0, length);
+    last.clear();
+    for (const std::size_t end = std::min<std::uint64_t>(length, most); last.size() < end;)
+    {
+      last += this->File.at(begin + last.size()).substr(0, end - last.size());
+    }
   }
   return last;
 }

@@ -38,7 +38,7 @@ public:
   /** The next word, without consuming it. */
   std::string peek();
   /** The rest of the line, which is consumed. */
-  std::string line();
+  std::string line() { return this->line(MaxLineBytes); }
   /** The next word as a count, not negative. */
   std::int64_t count(const char* what);
 
@@ -46,8 +46,8 @@ public:
    * the file, and skips it. Throws Error if the type is unknown or the file is too short. */
   VtkArray array(
     const std::string& name, const std::string& type, int components, std::int64_t values);
-  /** Skips this number of texts; returns the last one, unless it is longer than 1 MiB. */
-  std::string skipTexts(std::int64_t texts);
+  /** Skips this number of texts; returns the last one, or its first `most` bytes. */
+  std::string skipTexts(std::int64_t texts, std::size_t most);
   /** Skips this number of bits. */
   void skipBits(std::int64_t bits);
 
@@ -55,6 +55,10 @@ public:
   std::size_t offset() const { return this->At; }
 
 private:
+  static constexpr std::size_t MaxLineBytes = 4096;
+
+  /** The first `most` bytes of the rest of the line. */
+  std::string line(std::size_t most);
   void skipBlanks();
   void skipBytes(std::int64_t count, std::size_t size);
 

@@ -131,11 +131,11 @@ private:
     std::string text = this->Layout.groupsText;
     if (this->Layout.groupsArray)
     {
-      constexpr std::size_t Longest = std::size_t(1) << 20;
+      constexpr std::size_t Longest = MaxGroupTextBytes, AtOnce = std::size_t(1) << 20;
       VtkArrayReader reader(
         this->Files.open(0, VtkFiles::Main), *this->Layout.groupsArray, this->Space);
-      for (auto some = reader.some(Longest); !some.empty() && text.size() < Longest;
-           some = reader.some(Longest))
+      for (auto some = reader.some(AtOnce); !some.empty() && text.size() < Longest;
+           some = reader.some(AtOnce))
       {
         text.append(reinterpret_cast<const char*>(some.data()), some.size());
       }

@@ -63,13 +63,19 @@ void Hdf5Output::addGroup(const std::string& name)
 void Hdf5Output::addText(const std::string& object, const char* attribute, const std::string& text)
 {
   const Hdf5Silence silence;
+  // Attributes have at most 64 KiB, but for texts of variable length, which are elsewhere.
+  constexpr std::size_t MostFixed = 32768;
+  const bool isLong = text.size() > MostFixed;
+  const char* const start = text.c_str();
   const Hdf5Handle<H5Tclose> type(H5Tcopy(H5T_C_S1));
-  H5Tset_size(type.id(), text.size());
-  H5Tset_strpad(type.id(), H5T_STR_NULLPAD);
+  H5Tset_size(type.id(), isLong ? H5T_VARIABLE : text.size());
+  H5Tset_strpad(type.id(), isLong ? H5T_STR_NULLTERM : H5T_STR_NULLPAD);
   const Hdf5Handle<H5Sclose> space(H5Screate(H5S_SCALAR));
   const Hdf5Handle<H5Aclose> handle(H5Acreate_by_name(this->File, object.c_str(), attribute,
     type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
-  if (!handle.valid() || H5Awrite(handle.id(), type.id(), text.data()) < 0)
+  if (!handle.valid() ||
+      H5Awrite(handle.id(), type.id(),
+        isLong ? static_cast<const void*>(&start) : static_cast<const void*>(start)) < 0)
   {
     this->fail();
   }
