@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Export/GroupElements.h"
 
+#include "IO/Files/FileNames.h"
 #include "Solver/Problem/OpenValues.h"
 #include "smg/VsmReader.h"
 
@@ -23,7 +24,8 @@ bool hasColumn(const StreamInfo& info, GroupOf kind)
   return findColumn(columns, MeshGroups::columnSpec(kind, cornersOf(info.cellType))) >= 0;
 }
 
-/** A stream with the column of this kind, and the numbers of the vertices if they are wanted. */
+/** A stream with the column of this kind first and, if they are wanted, the original numbers of
+ * vertices and, if known, of cells last. */
 std::unique_ptr<MeshSource> groupStream(const VsmReader& reader, GroupOf kind, bool withNumbers)
 {
   std::vector<std::string> ofVertices, ofCells;
@@ -31,6 +33,10 @@ std::unique_ptr<MeshSource> groupStream(const VsmReader& reader, GroupOf kind, b
   if (withNumbers)
   {
     ofVertices.emplace_back(OriginalIdName);
+    if (kind == GroupOf::Facets && findColumn(reader.info().cellColumns, OriginalCellIdSpec) >= 0)
+    {
+      ofCells.emplace_back(OriginalCellIdName);
+    }
   }
   return reader.source(ofVertices, ofCells);
 }
@@ -82,16 +88,23 @@ std::vector<std::int64_t> uniqueNumbers(const std::vector<Group>& groups)
 
 } // namespace
 
-GroupElements::GroupElements(const std::filesystem::path& vsm, bool restored, Pool& memory)
-  : File(vsm)
+GroupElements::GroupElements(const VsmReader& mesh, bool restored, Workspace& space)
+  : Mesh(&mesh)
   , IsRestored(restored)
-  , Memory(&memory)
+  , Space(&space)
+  , Groups(mesh.info().groups)
+  , Numbers(uniqueNumbers(this->Groups.groups))
+  , Members(this->Groups.groups.size())
+  , Counts{ countSets(mesh, GroupOf::Vertices), countSets(mesh, GroupOf::Facets),
+    countSets(mesh, GroupOf::Cells) }
 {
-  const VsmReader reader(vsm);
-  this->Groups = reader.info().groups;
-  this->Numbers = uniqueNumbers(this->Groups.groups);
-  this->OfVertices = countSets(reader, GroupOf::Vertices);
-  this->OfFacets = countSets(reader, GroupOf::Facets);
+  for (std::size_t set = 1; set < this->Groups.sets.size(); ++set)
+  {
+    for (const std::uint32_t group : this->Groups.sets[set])
+    {
+      this->Members[group] += this->Counts[std::size_t(this->Groups.groups[group].of)][set];
+    }
+  }
 }
 
 std::vector<std::uint32_t> GroupElements::groupsOf(GroupSet set, GroupOf kind) const
@@ -107,7 +120,7 @@ std::vector<std::uint32_t> GroupElements::groupsOf(GroupSet set, GroupOf kind) c
 
 std::int64_t GroupElements::memberships(GroupOf kind) const
 {
-  const auto& counts = kind == GroupOf::Vertices ? this->OfVertices : this->OfFacets;
+  const std::vector<std::int64_t>& counts = this->Counts[std::size_t(kind)];
   std::int64_t sum = 0;
   for (std::size_t set = 1; set < counts.size(); ++set)
   {
@@ -116,16 +129,45 @@ std::int64_t GroupElements::memberships(GroupOf kind) const
   return sum;
 }
 
+std::int64_t GroupElements::grouped(GroupOf kind) const
+{
+  const std::vector<std::int64_t>& counts = this->Counts[std::size_t(kind)];
+  std::int64_t sum = 0;
+  for (std::size_t set = 1; set < counts.size(); ++set)
+  {
+    sum += this->groupsOf(static_cast<GroupSet>(set), kind).empty() ? 0 : counts[set];
+  }
+  return sum;
+}
+
+std::string GroupElements::numbersNote(const std::function<bool(const Group&)>& isWritten) const
+{
+  constexpr std::size_t Most = 20;
+  std::string names;
+  std::size_t count = 0;
+  for (std::size_t g = 0; g < this->Groups.groups.size(); ++g)
+  {
+    const Group& group = this->Groups.groups[g];
+    if (!group.name.empty() && isWritten(group) && ++count <= Most)
+    {
+      names += (names.empty() ? "" : ", ") + inQuotes(group.name) + " is " +
+               std::to_string(this->Numbers[g]);
+    }
+  }
+  return names.empty()
+           ? ""
+           : "Groups have only numbers in the file: " + names + (count > Most ? " ..." : ".");
+}
+
 void GroupElements::forEach(GroupOf kind, const Visit& visit) const
 {
   if (this->memberships(kind) == 0)
   {
     return;
   }
-  const VsmReader reader(this->File);
-  const auto source = groupStream(reader, kind, this->IsRestored);
-  const auto corners = static_cast<std::size_t>(cornersOf(reader.info().cellType));
-  OpenValues<std::int64_t> numbers(*this->Memory);
+  const auto source = groupStream(*this->Mesh, kind, this->IsRestored);
+  const auto corners = static_cast<std::size_t>(cornersOf(this->Mesh->info().cellType));
+  OpenValues<std::int64_t> numbers(this->Space->pool());
   std::array<std::int64_t, 4> vertices{};
   for (MeshBlock block; source->next(block);)
   {
@@ -135,28 +177,40 @@ void GroupElements::forEach(GroupOf kind, const Visit& visit) const
       ofBlock[v] = this->IsRestored ? block.vertexColumns.back().as<std::int64_t>()[v]
                                     : block.firstVertex + static_cast<std::int64_t>(v);
     }
-    const Column& column =
-      kind == GroupOf::Vertices ? block.vertexColumns.front() : block.cellColumns.front();
-    const std::span<const GroupSet> sets = std::as_const(column).as<GroupSet>();
+    if (kind == GroupOf::Vertices)
+    {
+      const std::span<const GroupSet> sets =
+        std::as_const(block.vertexColumns.front()).as<GroupSet>();
+      for (std::size_t v = 0; v < sets.size(); ++v)
+      {
+        sets[v] == 0 ? void() : visit(ofBlock.subspan(v, 1), sets[v], -1);
+      }
+      continue;
+    }
+    const std::span<const GroupSet> sets = std::as_const(block.cellColumns.front()).as<GroupSet>();
+    const bool knowsCells = block.cellColumns.size() > 1;
     for (std::size_t i = 0; i < sets.size(); ++i)
     {
       if (sets[i] == 0)
       {
         continue;
       }
+      const std::size_t cell = i / corners, opposite = i % corners;
       std::size_t count = 0;
-      if (kind == GroupOf::Vertices)
+      for (std::size_t k = 0; k < corners; ++k)
       {
-        vertices[count++] = ofBlock[i];
-      }
-      for (std::size_t k = 0; kind == GroupOf::Facets && k < corners; ++k)
-      {
-        if (k != i % corners)
+        if (k != opposite)
         {
-          vertices[count++] = *numbers.at(block.corners[i / corners * corners + k]);
+          vertices[count++] = *numbers.at(block.corners[cell * corners + k]);
         }
       }
-      visit(std::span(vertices).first(count), sets[i]);
+      if (opposite % 2 != 0)
+      {
+        std::swap(vertices[count - 2], vertices[count - 1]); // to face outwards
+      }
+      visit(std::span(vertices).first(count), sets[i],
+        knowsCells ? std::as_const(block.cellColumns.back()).as<std::int64_t>()[cell]
+                   : block.firstCell + static_cast<std::int64_t>(cell));
     }
   }
 }

@@ -48,11 +48,12 @@ struct MeshFileInfo
   std::int64_t maxCorners = 0;     ///< of an element
   std::vector<ColumnSpec> vertexColumns;
   std::vector<ColumnSpec> elementColumns;
-  /** The groups to which the columns of groups refer, as far as there are these columns. */
+  /** The groups to which the columns of groups refer, of a format with these (GroupForm::Columns).
+   */
   MeshGroups groupTable;
   bool text = false; ///< whether a format that has either form is to write text
-  /** Facets and vertices in groups, for a format that has a place for them (Format::holdsGroups);
-   * null: there are no groups. The sets of cells are the column CellGroups. */
+  /** Facets and vertices in groups, for a format with places for them (Format::groups);
+   * null: there are no groups. The sets of vertices and cells are columns, too. */
   std::shared_ptr<const GroupElements> groups = nullptr;
 };
 

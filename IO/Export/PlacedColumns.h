@@ -64,6 +64,10 @@ public:
     return this->OfElements.firstInteger(names);
   }
 
+  // The indices of all columns that were not asked for, of at most so many components.
+  std::vector<std::size_t> othersOfVertices(int most) { return this->OfVertices.takeOthers(most); }
+  std::vector<std::size_t> othersOfElements(int most) { return this->OfElements.takeOthers(most); }
+
   /** A note for the user on the columns that were not asked for. */
   std::vector<std::string> leftOut(std::string_view suffix) const
   {
@@ -123,6 +127,20 @@ private:
         found = this->place(*name, 1, 1, Numbers::Integers);
       }
       return found;
+    }
+
+    std::vector<std::size_t> takeOthers(int most)
+    {
+      std::vector<std::size_t> others;
+      for (std::size_t i = 0; i < this->Specs.size(); ++i)
+      {
+        if (!this->Taken[i] && this->Specs[i].components <= most)
+        {
+          this->Taken[i] = true;
+          others.push_back(i);
+        }
+      }
+      return others;
     }
 
     /** The names of the others, before the given ones. */

@@ -37,15 +37,14 @@ constexpr double CellsShare = RestoredMesh::SortedShare * 0.8;
 
 } // namespace
 
-std::vector<ColumnSpec> ownColumns(const std::vector<ColumnSpec>& specs, bool withGroups)
+std::vector<ColumnSpec> ownColumns(const std::vector<ColumnSpec>& specs, GroupForm groups)
 {
   std::vector<ColumnSpec> own;
   std::copy_if(specs.begin(), specs.end(), std::back_inserter(own),
-    [withGroups](const ColumnSpec& spec)
+    [groups](const ColumnSpec& spec)
     {
-      // Facets and vertices in groups are elements of their own: see GroupElements.
-      const bool isOfGroups =
-        !withGroups && (spec.name == FacetGroupsName || spec.name == VertexGroupsName);
+      const bool isOfGroups = (spec.name == FacetGroupsName && groups != GroupForm::Columns) ||
+                              (spec.name == VertexGroupsName && groups == GroupForm::None);
       return spec != VertexNumbers && spec != OriginalCellIdSpec && spec.name != CellFlagsName &&
              !isOfGroups;
     });
@@ -53,12 +52,11 @@ std::vector<ColumnSpec> ownColumns(const std::vector<ColumnSpec>& specs, bool wi
 }
 
 RestoredMesh::RestoredMesh(
-  const std::filesystem::path& vsm, Workspace& workspace, std::int64_t maxCorners, bool withGroups)
+  VsmReader& reader, Workspace& workspace, std::int64_t maxCorners, GroupForm groups)
   : Space(workspace)
-  , Name(vsm.string())
+  , Name(reader.path().string())
 {
-  VsmReader reader(vsm, &workspace.traffic());
-  this->readInfo(reader, withGroups);
+  this->readInfo(reader, groups);
   // The table of the numbers is released before the cells are merged, which then have that memory
   // as well.
   const std::int64_t memory = workspace.available();
@@ -80,7 +78,7 @@ RestoredMesh::RestoredMesh(
   workspace.tell(SortedShare);
 }
 
-void RestoredMesh::readInfo(const VsmReader& reader, bool withGroups)
+void RestoredMesh::readInfo(const VsmReader& reader, GroupForm groups)
 {
   const StreamInfo& stream = reader.info();
   if (findColumn(stream.vertexColumns, VertexNumbers) < 0)
@@ -94,8 +92,8 @@ void RestoredMesh::readInfo(const VsmReader& reader, bool withGroups)
   this->Info.isolated = reader.isolatedVertices();
   this->Info.vertices = stream.vertices + this->Info.isolated;
   this->Info.cells = stream.cells;
-  this->Info.vertexColumns = ownColumns(stream.vertexColumns, withGroups);
-  this->Info.elementColumns = ownColumns(stream.cellColumns, withGroups);
+  this->Info.vertexColumns = ownColumns(stream.vertexColumns, groups);
+  this->Info.elementColumns = ownColumns(stream.cellColumns, groups);
   this->Info.groupTable = stream.groups;
   // Numbers of vertices have 32 bits in the relabelling.
   if (this->Info.vertices >= std::int64_t(NoIndex))
@@ -104,6 +102,10 @@ void RestoredMesh::readInfo(const VsmReader& reader, bool withGroups)
                 " vertices; the original order can be restored of at most 4294967294.");
   }
   this->KnowsCells = findColumn(stream.cellColumns, OriginalCellIdSpec) >= 0;
+  if (this->KnowsCells && groups == GroupForm::Sides && !stream.groups.empty())
+  {
+    this->Info.elementColumns.push_back(OriginalCellIdSpec);
+  }
   if (!this->KnowsCells)
   {
     this->Notes.push_back("The cells are in the order of the mesh stream, since it has no column "
@@ -161,10 +163,10 @@ void RestoredMesh::readIsolated(VsmReader& reader)
 void RestoredMesh::readCells(
   VsmReader& reader, Relabelling& ids, RecordFile<std::uint32_t>& corners)
 {
-  std::vector<std::string> names = namesWith(this->Info.elementColumns, OriginalCellIdName);
-  if (!this->KnowsCells)
+  std::vector<std::string> names = columnNames(this->Info.elementColumns);
+  if (this->KnowsCells && findColumn(this->Info.elementColumns, OriginalCellIdSpec) < 0)
   {
-    names.pop_back();
+    names.emplace_back(OriginalCellIdName);
   }
   const auto source = reader.source({}, names);
   const auto cornersOfCell = static_cast<std::size_t>(cornersOf(this->Info.cellType));
@@ -187,7 +189,7 @@ void RestoredMesh::readCells(
       std::int64_t number = block.firstCell + static_cast<std::int64_t>(cell);
       if (this->KnowsCells)
       {
-        number = block.cellColumns[this->Info.elementColumns.size()].as<std::int64_t>()[cell];
+        number = std::as_const(block.cellColumns[names.size() - 1]).as<std::int64_t>()[cell];
       }
       if (number < 0)
       {

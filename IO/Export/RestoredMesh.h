@@ -15,9 +15,9 @@ namespace smg
 
 class VsmReader;
 
-/** The columns without those that a conversion adds; `withGroups`: also those of the facets and
- * vertices in groups. */
-std::vector<ColumnSpec> ownColumns(const std::vector<ColumnSpec>& specs, bool withGroups = false);
+/** The columns without those that a conversion adds, for a format with groups of this form. */
+std::vector<ColumnSpec> ownColumns(
+  const std::vector<ColumnSpec>& specs, GroupForm groups = GroupForm::None);
 
 /**
  * A .vsm file in the order of its original file: its vertices by the vertex column `OriginalId`,
@@ -31,13 +31,13 @@ class RestoredMesh
 public:
   /**
    * Reads the stream and sorts it. Reports the workspace's progress up to SortedShare.
-   * `maxCorners`: of the polygons that the writer holds, see ElementRestorer. `withGroups`: see
-   * ownColumns().
+   * `maxCorners`: of the polygons that the writer holds, see ElementRestorer. `groups`: their form
+   * in the file; if they are sides, elements have the column OriginalCellId, as far as it is known.
    * @throws Error if the file has no OriginalId, its vertices are not all of the original ones, or
    * it cannot be read; Cancelled.
    */
-  RestoredMesh(const std::filesystem::path& vsm, Workspace& workspace, std::int64_t maxCorners,
-    bool withGroups = false);
+  RestoredMesh(VsmReader& reader, Workspace& workspace, std::int64_t maxCorners,
+    GroupForm groups = GroupForm::None);
   RestoredMesh(const RestoredMesh&) = delete;
   RestoredMesh& operator=(const RestoredMesh&) = delete;
 
@@ -59,7 +59,7 @@ public:
   static constexpr double SortedShare = 0.6;
 
 private:
-  void readInfo(const VsmReader& reader, bool withGroups);
+  void readInfo(const VsmReader& reader, GroupForm groups);
   void readVertices(VsmReader& reader, Relabelling& ids, RecordFile<std::uint32_t>& corners);
   void readIsolated(VsmReader& reader);
   void readCells(VsmReader& reader, Relabelling& ids, RecordFile<std::uint32_t>& corners);

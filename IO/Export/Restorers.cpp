@@ -51,6 +51,15 @@ ElementRestorer::ElementRestorer(
   , MaxCells(static_cast<std::size_t>(elementBytes(workspace)) /
              (BytesOfFanTriangle + this->Columns.bytes()))
 {
+  std::ptrdiff_t place = 0;
+  for (const ColumnSpec& spec : info.elementColumns)
+  {
+    this->FacetGroups =
+      spec == MeshGroups::columnSpec(GroupOf::Facets, static_cast<int>(this->CornersOfCell))
+        ? place
+        : this->FacetGroups;
+    place += static_cast<std::ptrdiff_t>(spec.tupleBytes());
+  }
 }
 
 void ElementRestorer::put(std::int64_t element, std::span<const std::uint32_t> corners,
@@ -105,6 +114,25 @@ void ElementRestorer::take(const RowSort::Row& row)
   this->Tuples.insert(this->Tuples.end(), tuples, tuples + this->Columns.bytes());
 }
 
+/** Whether any edge of the collected cells is in a group, which the column of a polygon has no
+ * components for. */
+bool ElementRestorer::hasGroupedFacets() const
+{
+  const std::size_t bytes = this->Columns.bytes(),
+                    cells = this->Corners.size() / this->CornersOfCell;
+  for (std::size_t cell = 0; this->FacetGroups >= 0 && cell < cells; ++cell)
+  {
+    const auto sets = std::span(this->Tuples)
+                        .subspan(cell * bytes + static_cast<std::size_t>(this->FacetGroups),
+                          this->CornersOfCell * sizeof(GroupSet));
+    if (std::ranges::any_of(sets, [](std::byte b) { return b != std::byte{}; }))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 /** Writes the polygon that became the collected cells. */
 void ElementRestorer::writePolygon(bool isFan)
 {
@@ -135,6 +163,12 @@ void ElementRestorer::endGroup()
   const bool isTree = mayBePolygon && !isFan && this->Tree.build(this->Corners);
   if (isFan || isTree)
   {
+    if (this->hasGroupedFacets())
+    {
+      ++this->Grouped;
+      isTree ? this->writeInOrder(this->Tree.order()) : this->writeCells();
+      return;
+    }
     this->writePolygon(isFan);
     return;
   }
@@ -209,6 +243,12 @@ std::vector<std::string> ElementRestorer::notes() const
           ? " cell of the original file, which became several " + cells + ", is"
           : " cells of the original file, which became several " + cells + " each, are") +
       " written as these " + cells + ".");
+  }
+  if (this->Grouped > 0)
+  {
+    notes.push_back(counted(this->Grouped, "polygon with edges in groups is",
+                      "polygons with edges in groups are") +
+                    " written as triangles, which have places for these.");
   }
   if (this->Large > 0)
   {

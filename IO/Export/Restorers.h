@@ -97,6 +97,7 @@ public:
 
 private:
   void take(const RowSort::Row& row);
+  bool hasGroupedFacets() const;
   void writePolygon(bool isFan);
   void writeInOrder(std::span<const std::uint32_t> cells);
   void endGroup();
@@ -123,7 +124,8 @@ private:
   FanChain Fan;
   PolygonTree Tree;
   StripChain Strip;
-  std::int64_t Split = 0, Large = 0, Different = 0; ///< elements of that kind
+  std::ptrdiff_t FacetGroups = -1; ///< place of this column in a row; -1: there is none
+  std::int64_t Split = 0, Large = 0, Different = 0, Grouped = 0; ///< elements of that kind
 
   std::optional<BucketFile::Reader> Reader;
   std::int64_t Next = 0;

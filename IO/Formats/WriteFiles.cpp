@@ -48,7 +48,7 @@ namespace
 /** Says that a format has no place for the groups of a mesh. */
 void noteGroups(const MeshGroups& groups, const Format& format, WriteNotes& notes)
 {
-  if (!groups.empty() && !format.holdsGroups && !format.holdsGroupColumns)
+  if (!groups.empty() && format.groups == GroupForm::None)
   {
     notes.push_back("The groups of the mesh are left out, since " +
                     std::string(format.suffixes.front().text) + " files have no place for them.");
@@ -66,20 +66,19 @@ WriteNotes finish(MeshFileWriter& writer, const Format& format, const MeshFileIn
                          ? "Polygons are written as triangles."
                          : "Polygons of more than four corners are written as triangles.");
   }
-  if (info.groups)
-  {
-    noteGroups(info.groups->groups(), format, notes);
-  }
   return notes;
 }
 
-/** What of the groups of a .vsm file is not in its cells; null: it has none. */
+/** What of the groups of a .vsm file is not in its cells; null: it has none, or the format has no
+ * elements of groups. */
 std::shared_ptr<const GroupElements> groupsOf(
-  const std::filesystem::path& vsm, bool restored, Workspace& space)
+  const VsmReader& reader, const Format& format, bool restored, Workspace& space)
 {
-  return VsmReader(vsm).info().groups.empty()
+  const bool areElements =
+    format.groups == GroupForm::Elements || format.groups == GroupForm::Sides;
+  return reader.info().groups.empty() || !areElements
            ? nullptr
-           : std::make_shared<GroupElements>(vsm, restored, space.pool());
+           : std::make_shared<GroupElements>(reader, restored, space);
 }
 
 /** Writes vertices and elements apart, in the order in which `mesh` gives them. */
@@ -142,8 +141,8 @@ void take(MeshBlock& block, CellType cells, ElementChunk& chunk)
 class StreamedMesh
 {
 public:
-  /** `allColumns`: also those that a conversion adds. `withGroups`: see ownColumns(). */
-  StreamedMesh(const std::filesystem::path& vsm, bool allColumns, bool withGroups,
+  /** `allColumns`: also those that a conversion adds. `groups`: see ownColumns(). */
+  StreamedMesh(const std::filesystem::path& vsm, bool allColumns, GroupForm groups,
     const ProgressFunction& progress)
     : Reader(vsm)
     , Info(this->Reader.info())
@@ -151,13 +150,14 @@ public:
   {
     if (!allColumns)
     {
-      this->Info.vertexColumns = ownColumns(this->Info.vertexColumns, withGroups);
-      this->Info.elementColumns = ownColumns(this->Info.elementColumns, withGroups);
+      this->Info.vertexColumns = ownColumns(this->Info.vertexColumns, groups);
+      this->Info.elementColumns = ownColumns(this->Info.elementColumns, groups);
     }
     this->Vertices = this->Reader.source(columnNames(this->Info.vertexColumns), {});
   }
 
   const MeshFileInfo& info() const { return this->Info; }
+  const VsmReader& reader() const { return this->Reader; }
 
   bool next(VertexChunk& chunk)
   {
@@ -238,13 +238,12 @@ WriteNotes writeAgain(const Format& format, const std::filesystem::path& vsm,
 {
   if (format.writeVsm)
   {
-    WriteNotes notes = format.writeVsm(vsm, path, options);
-    noteGroups(VsmReader(vsm).info().groups, format, notes);
-    return notes;
+    return format.writeVsm(vsm, path, options);
   }
   Workspace space(options.scratch, StreamOrderMemory);
-  StreamedMesh mesh(vsm, format.isStreamed(), format.holdsGroupColumns, options.progress);
-  return writeParts(mesh, format, path, groupsOf(vsm, false, space), space, options.text);
+  StreamedMesh mesh(vsm, format.isStreamed(), format.groups, options.progress);
+  return writeParts(
+    mesh, format, path, groupsOf(mesh.reader(), format, false, space), space, options.text);
 }
 
 /** Adds to the notes of a writer that this many vertices of no cell are not written. */
@@ -286,15 +285,16 @@ bool isPlainPly(const std::filesystem::path& path)
 std::vector<std::string> writeRestored(const std::filesystem::path& vsm,
   const std::filesystem::path& out, Workspace& workspace, bool text)
 {
-  const VsmReader reader(vsm);
+  VsmReader reader(vsm, &workspace.traffic());
   checkRestoredPath(out, reader.info().cellType);
   checkForm(out, text);
   const Format& format = *formatOfName(out);
-  RestoredMesh mesh(vsm, workspace, format.maxCorners, format.holdsGroupColumns);
+  RestoredMesh mesh(reader, workspace, format.maxCorners, format.groups);
   std::vector<std::string> notes = mesh.notes();
   const WriteNotes more =
-    writeParts(mesh, format, out, groupsOf(vsm, true, workspace), workspace, text);
+    writeParts(mesh, format, out, groupsOf(reader, format, true, workspace), workspace, text);
   notes.insert(notes.end(), more.begin(), more.end());
+  noteGroups(reader.info().groups, format, notes);
   return withoutIsolated(
     std::move(notes), format, format.holdsVertices ? 0 : reader.isolatedVertices());
 }
@@ -342,7 +342,9 @@ std::vector<std::string> writeMesh(
   WriteMeshOptions rest = options;
   rest.scratch = scratch.path();
   rest.progress = partOf(options.progress, 0.6, 1.0);
-  return withoutIsolated(writeAgain(format, whole, path, rest), format, options);
+  WriteNotes notes = writeAgain(format, whole, path, rest);
+  noteGroups(source.info().groups, format, notes);
+  return withoutIsolated(std::move(notes), format, options);
 }
 
 std::vector<std::string> writeFromVsm(const std::filesystem::path& vsm,
@@ -360,9 +362,13 @@ std::vector<std::string> writeFromVsm(const std::filesystem::path& vsm,
   options.isolatedFrom = vsm;
   options.isolatedFingerprint = reader.fingerprint();
   options.progress = progress;
-  return format.kind == MeshFileKind::Vsm || format.writeOrderOf(text) == WriteOrder::Interleaved
-           ? writeMesh(*reader.source(), path, options)
-           : withoutIsolated(writeAgain(format, vsm, path, options), format, options);
+  if (format.kind == MeshFileKind::Vsm || format.writeOrderOf(text) == WriteOrder::Interleaved)
+  {
+    return writeMesh(*reader.source(), path, options);
+  }
+  WriteNotes notes = writeAgain(format, vsm, path, options);
+  noteGroups(reader.info().groups, format, notes);
+  return withoutIsolated(std::move(notes), format, options);
 }
 
 bool canRewrite(const std::filesystem::path& in, const std::filesystem::path& out)

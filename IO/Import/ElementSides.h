@@ -10,6 +10,14 @@
 namespace smg
 {
 
+/** What the elements of a file are, as far as the numbers of their sides tell. */
+struct ElementKind
+{
+  std::uint8_t dimension = 0;
+  bool isShell = false; ///< a surface in space, whose sides 1 and 2 are its faces
+  bool operator==(const ElementKind&) const = default;
+};
+
 /** A side of an element, as files name it by a number of their own. */
 struct ElementSide
 {

@@ -7,10 +7,17 @@
 namespace smg
 {
 
-void ListedElements::add(std::uint32_t number, int kind, std::span<const std::int64_t> corners)
+namespace
+{
+constexpr std::uint32_t ShellBit = 4; ///< above the dimension
+} // namespace
+
+void ListedElements::add(
+  std::uint32_t number, ElementKind kind, std::span<const std::int64_t> corners)
 {
   std::array<std::uint32_t, MostCorners + 2> record{ number,
-    static_cast<std::uint32_t>(kind) << 8 | static_cast<std::uint32_t>(corners.size()) };
+    (kind.dimension | (kind.isShell ? ShellBit : 0)) << 8 |
+      static_cast<std::uint32_t>(corners.size()) };
   for (std::size_t k = 0; k < corners.size(); ++k)
   {
     if (corners[k] < 0 || corners[k] > std::int64_t(UINT32_MAX))
@@ -38,7 +45,8 @@ bool ListedElements::Element::next(RecordFile<std::uint32_t>::Reader& reader)
   {
     return false;
   }
-  this->kind = static_cast<int>(shape >> 8);
+  const std::uint32_t code = shape >> 8;
+  this->kind = { static_cast<std::uint8_t>(code % ShellBit), code >= ShellBit };
   this->count = shape & 255;
   for (std::size_t k = 0; k < this->count; ++k)
   {

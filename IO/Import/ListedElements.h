@@ -3,6 +3,7 @@
 
 #include "IO/External/BucketFile.h"
 #include "IO/External/ExternalSort.h"
+#include "IO/Import/ElementSides.h"
 #include "IO/Import/FileNumbers.h"
 
 #include <array>
@@ -35,9 +36,8 @@ public:
   }
 
   /** Adds an element by its corners, as numbers of the file. The numbers of the elements ascend.
-   * `kind`: what finish() is to tell of it, from 0 on. Throws MeshError if a corner has more than
-   * 32 bits. */
-  void add(std::uint32_t number, int kind, std::span<const std::int64_t> corners);
+   * `kind`: what finish() is to tell of it. Throws MeshError if a corner has more than 32 bits. */
+  void add(std::uint32_t number, ElementKind kind, std::span<const std::int64_t> corners);
   /** Adds an entry: the element of this number, or one of its sides, is in a list. */
   void put(std::uint32_t number, std::uint32_t list, std::uint32_t side = Whole);
 
@@ -45,7 +45,7 @@ public:
   struct Found
   {
     std::uint32_t element, list, side;
-    int kind;
+    ElementKind kind;
     std::span<const std::int64_t> corners;
   };
   /** Passes the entries to `take`, by ascending numbers of elements. Returns the number of those
@@ -96,7 +96,7 @@ private:
   struct Element
   {
     std::uint32_t number;
-    int kind;
+    ElementKind kind;
     std::size_t count;
     std::array<std::int64_t, MostCorners> corners;
 

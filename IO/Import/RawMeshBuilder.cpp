@@ -235,11 +235,11 @@ void RawMeshBuilder::alsoIn(
   std::int64_t element, int dimension, std::span<const std::int64_t> corners, GroupSet set)
 {
   const int ofCells = this->Kind ? cornersOf(*this->Kind) - 1 : 3;
-  if (dimension < ofCells)
+  if (dimension <= 2)
   {
-    this->grouped(dimension, corners, set);
+    this->grouped(dimension, corners, set); // also of triangles: a tetrahedron may follow
   }
-  else if (dimension == ofCells && set != GroupTable::None && !this->looks())
+  if (dimension == ofCells && set != GroupTable::None && !this->looks())
   {
     this->Further.put({ static_cast<std::uint32_t>(element), set });
     ++this->GroupedCells;

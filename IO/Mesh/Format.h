@@ -94,6 +94,15 @@ struct TypicalBytes
 /** A sentence for each difference between a written file and the mesh. */
 using WriteNotes = std::vector<std::string>;
 
+/** How the files of a format have groups. */
+enum class GroupForm : std::uint8_t
+{
+  None,
+  Elements, ///< of facets and vertices, as elements or lists of their own; MeshFileInfo::groups
+  Sides,    ///< the same, but facets are sides of elements (IO/Export/GroupSides.h)
+  Columns   ///< as columns, of which a table tells; MeshFileInfo::groupTable
+};
+
 /** The order in which the writer of a format takes the parts of a mesh. */
 enum class WriteOrder
 {
@@ -129,10 +138,7 @@ struct Format
    * they have only the corners of cells. */
   bool holdsVertices = true;
   bool holdsColumns = false; ///< every column of a mesh
-  bool holdsGroups = false;  ///< groups of vertices, facets and cells; see MeshFileInfo::groups
-  /** Those of vertices and facets as columns, of which a table tells; see
-   * MeshFileInfo::groupTable. */
-  bool holdsGroupColumns = false;
+  GroupForm groups = GroupForm::None;
   /** Columns of vertices that its files have places for, of a format without all columns. */
   std::span<const std::string_view> vertexColumns = {};
   /** Whether VTK reads its files, too: ParaView opens those itself that fit into memory. */

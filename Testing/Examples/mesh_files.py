@@ -3,6 +3,7 @@
 
 import array
 import base64
+import math
 import struct
 import sys
 import xml.etree.ElementTree as xml
@@ -214,6 +215,53 @@ def read_abaqus(data):
     return mesh(points, cells, False)
 
 
+def read_exodus(data):
+    """Classic netCDF of 64-bit offsets: coordinates and the blocks of elements, of one time step at most."""
+    assert data[:4] == b"CDF\2"
+    at = 8
+
+    def word():
+        nonlocal at
+        at += 4
+        return struct.unpack_from(">I", data, at - 4)[0]
+
+    def name():
+        nonlocal at
+        size = word()
+        at += (size + 3) // 4 * 4
+        return data[at - (size + 3) // 4 * 4:][:size]
+
+    def entries():
+        word()
+        return range(word())
+
+    def skip_attributes():
+        nonlocal at
+        for _ in entries():
+            name()
+            kind = word()
+            at += (word() * {2: 1, 4: 4, 5: 4, 6: 8}[kind] + 3) // 4 * 4
+
+    extents = [(name(), word())[1] for _ in entries()]
+    skip_attributes()
+    arrays = {}
+    for _ in entries():
+        key, shape = name(), [extents[word()] for _ in range(word())]
+        skip_attributes()
+        code = {2: "B", 4: "i", 5: "f", 6: "d"}[word()]
+        word()
+        begin, = struct.unpack_from(">Q", data, at)
+        at += 8
+        if 0 not in shape:  # that of results, which are records
+            arrays[key] = code, shape, struct.unpack_from(">%d%s" % (math.prod(shape), code), data, begin)
+    points = list(zip(*(arrays[b"coord" + axis][2] for axis in (b"x", b"y", b"z"))))
+    cells = []
+    for block in range(1, len(arrays[b"eb_prop1"][2]) + 1):
+        _, (_, corners), numbers = arrays[b"connect%d" % block]
+        cells += [tuple(number - 1 for number in numbers[i:i + corners]) for i in range(0, len(numbers), corners)]
+    return mesh(points, cells, arrays[b"coordx"][0] == "f")
+
+
 def read_legacy_vtk(data):
     """Binary files of versions before 5."""
     assert data.splitlines()[2] == b"BINARY"
@@ -261,9 +309,9 @@ def read_vtk_xml(data):
 # Those with polygons of any number of corners come first.
 READERS = {".ply": read_ply, ".vtp": read_vtk_xml, ".vtu": read_vtk_xml, ".vtk": read_legacy_vtk, ".obj": read_obj,
            ".off": read_off, ".stl": read_stl, ".mesh": read_medit, ".msh": read_gmsh,
-           ".inp": read_abaqus}
+           ".inp": read_abaqus, ".e": read_exodus}
 SURFACES = tuple(READERS)
-SOLIDS = (".vtu", ".vtk", ".mesh", ".msh", ".inp")
+SOLIDS = (".vtu", ".vtk", ".mesh", ".msh", ".inp", ".e")
 
 
 def read_mesh(name):

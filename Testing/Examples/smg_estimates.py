@@ -21,7 +21,7 @@ MIB = 1 << 20
 LEAST, MOST = 0.8, 1.5
 WITH_COLUMNS = {"surface": ("vsm", "ply", "vtp", "vtu", "vtkhdf"), "solid": ("vsm", "vtu", "vtkhdf")}
 STREAMS = {"surface": ("sma", "smb"), "solid": ("sva", "svb")}
-RESTORED = {"surface": ("obj", "off", "stl", "mesh", "msh", "node", "inp"), "solid": ("mesh", "msh", "node", "inp")}
+RESTORED = {"surface": ("obj", "off", "stl", "mesh", "msh", "node", "inp", "e"), "solid": ("mesh", "msh", "node", "inp", "e")}
 
 
 def write(name, text):

@@ -89,12 +89,13 @@ TEST(FormatTable, SuffixesAreOfOneFormatEach)
 TEST(FormatTable, ListsFollowFromIt)
 {
   EXPECT_EQ(suffixList(FormatUse::Write, CellType::Tetrahedron, "or"),
-    ".vsm, .sva, .svb, .mesh, .msh, .node, .ele, .inp, .vtk, .vtu, .vtkhdf or .hdf");
+    ".vsm, .sva, .svb, .mesh, .msh, .node, .ele, .inp, .e, .exo, .ex2, .g, .vtk, "
+    ".vtu, .vtkhdf or .hdf");
   EXPECT_EQ(suffixFor(FormatUse::Write, "a.pvtu"), nullptr);
   EXPECT_EQ(suffixFor(FormatUse::Write, "a.ply.gz"), nullptr);
   EXPECT_EQ(suffixFor(FormatUse::Restore, "A.OBJ")->text, ".obj");
   EXPECT_EQ(suffixFor(FormatUse::WriteColumns, "a.sma"), nullptr);
-  EXPECT_EQ(suffixList(FormatUse::RestoreColumns, "or"), ".ply, .vtk, .vtp or .vtu");
+  EXPECT_EQ(suffixList(FormatUse::RestoreColumns, "or"), ".ply, .msh, .e, .exo, .ex2, .g, .vtk, .vtp or .vtu");
   using Names = std::vector<std::string>;
   EXPECT_TRUE(restoresColumns("a.vtu", Names{ "any" }));
   EXPECT_TRUE(restoresColumns("a.OBJ", Names{ "Colors" }));

@@ -85,23 +85,24 @@ protected:
     // Only formats that may hold solids are looked at, see statedMesh().
     if (format && std::ranges::any_of(format->suffixes, &FileSuffix::tetrahedra))
     {
-      expectColumns(looked.mesh.vertexColumns, mesh.vertexColumns);
-      expectColumns(looked.mesh.cellColumns, mesh.elementColumns);
+      expectColumns(looked.mesh.vertexColumns, mesh.vertexColumns, format);
+      expectColumns(looked.mesh.cellColumns, mesh.elementColumns, format);
     }
   }
-  /** But for those of labels, which only the whole file tells. */
-  static void expectColumns(
-    const std::vector<ColumnSpec>& looked, const std::vector<RawColumn>& columns)
+  /** But for those of labels and data of Gmsh, which only the whole file tells. */
+  static void expectColumns(const std::vector<ColumnSpec>& looked,
+    const std::vector<RawColumn>& columns, const Format* format)
   {
     std::vector<ColumnSpec> told = looked, all;
     for (const RawColumn& column : columns)
     {
       all.push_back(column.spec);
     }
-    const auto areLabels = [](const ColumnSpec& column)
+    const auto areLabels = [format](const ColumnSpec& column)
     {
-      return column.name == ReferenceName || column.name == PhysicalTagName ||
-             column.name == GeometricalTagName || isGroupColumn(column.name);
+      return (format == &GmshFormat && isReal(column.type)) || column.name == ReferenceName ||
+             column.name == PhysicalTagName || column.name == GeometricalTagName ||
+             isGroupColumn(column.name);
     };
     std::erase_if(told, areLabels);
     std::erase_if(all, areLabels);

@@ -123,7 +123,7 @@ TEST_F(ImportGmsh, TrianglesAndQuadrilaterals)
   const ReadMesh mesh = this->gmsh("$Comments\nby hand\n$EndComments\n" + Format2 +
                                    "$PhysicalNames\n1\n2 1 \"skin\"\n$EndPhysicalNames\n" + Nodes2 +
                                    "$Elements\n4\n1 1 2 0 1 1 2\n2 2 2 0 1 1 2 3\n3 3 0 1 2 3 4\n"
-                                   "4 15 1 0 1\n$EndElements\n$NodeData\n1\n$EndNodeData\n");
+                                   "4 15 1 0 1\n$EndElements\n$Periodic\n1\n$EndPeriodic\n");
   EXPECT_EQ(mesh.cellType, CellType::Triangle);
   EXPECT_EQ(mesh.corners, (Numbers{ 0, 1, 2, 0, 1, 2, 0, 2, 3 }));
   EXPECT_EQ(mesh.elements, (Numbers{ 1, 2, 2 }));

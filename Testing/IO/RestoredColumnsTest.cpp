@@ -79,7 +79,6 @@ TEST_F(RestoredColumns, TextFormatsKeepTheColumnsThatTheyHaveAPlaceFor)
   } formats[] = {
     { ".off", { "Normals", "Colors", "TextureCoordinates" }, { "Colors" } },
     { ".mesh", { "Reference" }, { "Reference" } },
-    { ".msh", {}, { "PhysicalTag", "GeometricalTag" } },
     { ".node", { "Attribute", "Marker" }, { "Attribute" } },
     { ".ele", { "Attribute", "Marker" }, { "Attribute" } },
   };
@@ -126,13 +125,10 @@ TEST_F(RestoredColumns, LabelsThatAreNoIntegersAreLeftOut)
   mesh.vertexColumns.clear();
   mesh.cellColumns = { makeColumn<double>("Reference", halves),
     makeColumn<double>("PhysicalTag", halves) };
-  for (const char* name : { "out.mesh", "out.msh" })
-  {
-    this->write(mesh, name);
-    EXPECT_TRUE(this->isNoted("cell 'Reference', cell 'PhysicalTag'"));
-    Workspace workspace(this->Folder.path(), Workspace::MinMemory);
-    EXPECT_TRUE(importMesh(this->Folder / name, workspace).elementColumns.empty());
-  }
+  this->write(mesh, "out.mesh");
+  EXPECT_TRUE(this->isNoted("cell 'Reference', cell 'PhysicalTag'"));
+  Workspace workspace(this->Folder.path(), Workspace::MinMemory);
+  EXPECT_TRUE(importMesh(this->Folder / "out.mesh", workspace).elementColumns.empty());
 }
 
 TEST_F(RestoredColumns, LabelsTravelBetweenFormatsThatCallThemDifferently)

@@ -4,8 +4,11 @@
 #include "Testing/Support/FileCursor.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 
@@ -224,11 +227,159 @@ FileMesh readPly(FileCursor in)
 
 } // namespace
 
+namespace
+{
+
+/** The header and numbers of a classic netCDF file of 64-bit offsets. */
+class NetCdfCursor
+{
+public:
+  explicit NetCdfCursor(const std::string& file)
+    : File(file)
+  {
+    if (!file.starts_with("CDF\2"))
+    {
+      throw std::runtime_error("no netCDF file of 64-bit offsets");
+    }
+    for (std::uint64_t count = this->list(); count > 0; --count)
+    {
+      this->name();
+      this->Extents.push_back(this->number(4));
+    }
+    this->skipAttributes();
+    for (std::uint64_t count = this->list(); count > 0; --count)
+    {
+      this->readVariable();
+    }
+  }
+
+  bool has(const std::string& name) const { return this->Variables.contains(name); }
+  std::uint64_t extent(const std::string& name, std::size_t k) const
+  {
+    return this->Variables.at(name).extents.at(k);
+  }
+  std::vector<double> values(const std::string& name)
+  {
+    const Variable& variable = this->Variables.at(name);
+    std::vector<double> values;
+    const std::size_t size = variable.type == 6 ? 8 : 4;
+    std::uint64_t count = 1;
+    for (const std::uint64_t extent : variable.extents)
+    {
+      count *= extent;
+    }
+    this->At = variable.begin;
+    for (; count > 0; --count)
+    {
+      const std::uint64_t bits = this->number(size);
+      values.push_back(variable.type == 6   ? std::bit_cast<double>(bits)
+                       : variable.type == 5 ? std::bit_cast<float>(std::uint32_t(bits))
+                                            : static_cast<double>(std::int32_t(bits)));
+    }
+    return values;
+  }
+
+private:
+  struct Variable
+  {
+    std::vector<std::uint64_t> extents;
+    std::uint64_t type, begin;
+  };
+
+  std::uint64_t number(std::size_t bytes)
+  {
+    std::uint64_t value = 0;
+    for (; bytes > 0; --bytes)
+    {
+      value = value << 8 | static_cast<unsigned char>(this->File.at(this->At++));
+    }
+    return value;
+  }
+  std::uint64_t list()
+  {
+    this->number(4);
+    return this->number(4);
+  }
+  std::string name()
+  {
+    const std::uint64_t size = this->number(4), begin = this->At;
+    this->At += (size + 3) / 4 * 4;
+    return this->File.substr(begin, size);
+  }
+  void skipAttributes()
+  {
+    for (std::uint64_t count = this->list(); count > 0; --count)
+    {
+      this->name();
+      const std::uint64_t bytes = this->number(4) == 2 ? 1 : 4;
+      this->At += (this->number(4) * bytes + 3) / 4 * 4;
+    }
+  }
+  void readVariable()
+  {
+    const std::string name = this->name();
+    Variable variable;
+    for (std::uint64_t rank = this->number(4); rank > 0; --rank)
+    {
+      variable.extents.push_back(this->Extents.at(this->number(4)));
+    }
+    this->skipAttributes();
+    variable.type = this->number(4);
+    this->number(4);
+    variable.begin = this->number(8);
+    this->Variables[name] = variable;
+  }
+
+  const std::string& File;
+  std::size_t At = 8;
+  std::vector<std::uint64_t> Extents;
+  std::map<std::string, Variable> Variables;
+};
+
+/** Points and the blocks of elements. */
+FileMesh readExodus(const std::string& text)
+{
+  NetCdfCursor in(text);
+  FileMesh mesh;
+  const std::vector<double> axes[] = { in.values("coordx"), in.values("coordy"),
+    in.values("coordz") };
+  for (std::size_t i = 0; i < axes[0].size(); ++i)
+  {
+    for (const std::vector<double>& axis : axes)
+    {
+      mesh.points.push_back(axis[i]);
+    }
+  }
+  for (int block = 1; in.has("connect" + std::to_string(block)); ++block)
+  {
+    const std::string name = "connect" + std::to_string(block);
+    const std::vector<double> numbers = in.values(name);
+    const std::size_t corners = in.extent(name, 1);
+    for (std::size_t i = 0; i < numbers.size(); i += corners)
+    {
+      std::vector<std::int64_t>& cell = mesh.cells.emplace_back();
+      for (std::size_t k = 0; k < corners; ++k)
+      {
+        cell.push_back(static_cast<std::int64_t>(numbers[i + k]) - 1);
+      }
+    }
+  }
+  return mesh;
+}
+
+bool isOfExodus(const std::string& suffix)
+{
+  return suffix == ".e" || suffix == ".exo" || suffix == ".ex2" || suffix == ".g";
+}
+
+} // namespace
+
 FileMesh readFileMesh(const std::filesystem::path& path)
 {
   const std::string suffix = path.extension().string();
   const std::string text = contentOf(path);
-  return suffix == ".ply"    ? readPly(FileCursor(text))
+  return isOfExodus(suffix)  ? readExodus(text)
+         : suffix == ".ply"  ? readPly(FileCursor(text))
          : suffix == ".obj"  ? readObj(FileCursor(text))
          : suffix == ".off"  ? readOff(FileCursor(text))
          : suffix == ".mesh" ? readMedit(FileCursor(text))

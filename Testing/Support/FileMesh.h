@@ -20,7 +20,7 @@ struct FileMesh
 };
 
 /** Reads a file of the library, by its suffix: .ply, .vtp, .vtu, .vtk (binary), .obj, .off, .mesh,
- * .msh. Throws std::exception if the file is not as expected. */
+ * .msh, .inp, .e. Throws std::exception if the file is not as expected. */
 FileMesh readFileMesh(const std::filesystem::path& path);
 
 /** Reads a .stl file, text or binary: three points per triangle. */

@@ -169,7 +169,7 @@ private:
       if (!this->Builder.looks())
       {
         this->Elements.add(label);
-        this->Sets.element(shape->kind(), corners, set);
+        this->Sets.element(*shape, corners, set);
       }
       this->Builder.element(shape->dimension, corners, shape->nodes > shape->corners);
     }
@@ -350,7 +350,7 @@ const Format AbaqusFormat{
   .suffixes = AbaqusSuffixes,
   .description = "input files, also of CalculiX: nodes, elements, sets and surfaces",
   .cells = "solids, shells and plane elements; the corners of higher-order ones",
-  .holdsGroupColumns = true,
+  .groups = GroupForm::Sides,
   .looksLike = looksLikeAbaqus,
   .parse = parseWith<importAbaqus>,
   .typicalBytes = { 230, 4 },

@@ -71,7 +71,7 @@ void AbaqusSets::include(std::uint32_t part, std::uint32_t whole, std::uint32_t 
 }
 
 void AbaqusSets::element(
-  int kind, std::span<const std::int64_t> corners, std::optional<std::uint32_t> set)
+  ElementKind kind, std::span<const std::int64_t> corners, std::optional<std::uint32_t> set)
 {
   const std::int64_t number = this->Builder.elements();
   this->Listed.add(static_cast<std::uint32_t>(number), kind, corners);
@@ -80,7 +80,7 @@ void AbaqusSets::element(
   {
     this->Current = now;
     const bool isGroup = set && !this->Sets[*set].isInternal;
-    this->Builder.setGroups(isGroup ? this->groupsOf(*set, kind % 4) : GroupTable::None);
+    this->Builder.setGroups(isGroup ? this->groupsOf(*set, kind.dimension) : GroupTable::None);
   }
   if (!set)
   {
@@ -183,7 +183,7 @@ void AbaqusSets::finish(FileNumbers& nodes, FileNumbers& elements)
         }
         return;
       }
-      const int dimension = found.kind % 4;
+      const int dimension = found.kind.dimension;
       for (const std::uint32_t set : meaning.sets)
       {
         if (!isFurther || set != found.list)

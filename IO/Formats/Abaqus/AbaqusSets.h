@@ -52,7 +52,8 @@ public:
   void include(std::uint32_t part, std::uint32_t whole, std::uint32_t side = ListedElements::Whole);
 
   /** To be called before the element is added to the builder: it is in this set, too. */
-  void element(int kind, std::span<const std::int64_t> corners, std::optional<std::uint32_t> set);
+  void element(
+    ElementKind kind, std::span<const std::int64_t> corners, std::optional<std::uint32_t> set);
 
   /** After the last line: passes all members to the builder. The numbers are finished. */
   void finish(FileNumbers& nodes, FileNumbers& elements);
@@ -101,7 +102,8 @@ private:
   RecordFile<Entry> ElementEntries;
   ListedElements Listed;
   std::vector<Stretch> Stretches;
-  std::pair<std::uint32_t, int> Current{ NoIndex, -1 }; ///< set and kind of the last element
+  std::pair<std::uint32_t, ElementKind> Current{ NoIndex,
+    {} }; ///< set and kind of the last element
   std::vector<Meaning> Meanings;
   std::int64_t Unknown = 0; ///< entries without a node, an element or a side
 };

@@ -75,7 +75,7 @@ std::optional<AbaqusShape> abaqusShape(std::string_view type)
   if (const int nodes = beamNodes(type.substr(0, 3));
       nodes > 0 && type.size() >= 3 && (type[1] == '2' || type[1] == '3'))
   {
-    return AbaqusShape{ 1, 2, static_cast<std::uint8_t>(nodes) };
+    return AbaqusShape{ { 1 }, 2, static_cast<std::uint8_t>(nodes) };
   }
   for (const AbaqusFamily& family : AbaqusFamilies)
   {
@@ -89,8 +89,8 @@ std::optional<AbaqusShape> abaqusShape(std::string_view type)
     nodes = family.prefix == "STRI" && nodes == 65 ? 6 : nodes;
     if (const std::uint8_t corners = cornersOfNodes(family.dimension, nodes))
     {
-      return AbaqusShape{ static_cast<std::uint8_t>(family.dimension), corners,
-        static_cast<std::uint8_t>(nodes), family.isShell };
+      return AbaqusShape{ { static_cast<std::uint8_t>(family.dimension), family.isShell }, corners,
+        static_cast<std::uint8_t>(nodes) };
     }
   }
   return {};
@@ -113,11 +113,10 @@ std::optional<std::uint32_t> abaqusSideNumber(std::string_view name)
   return static_cast<std::uint32_t>(name[1] - '1') + (isEdge ? FirstEdge : 0);
 }
 
-ElementSide abaqusSide(int kind, std::size_t corners, std::uint32_t number)
+ElementSide abaqusSide(ElementKind kind, std::size_t corners, std::uint32_t number)
 {
   constexpr std::uint32_t FirstEdge = 10, FacesOfShell = 2;
-  const bool isShell = kind >= 4;
-  const int dimension = kind % 4;
+  const auto [dimension, isShell] = kind;
   if (number == WholeSide || (isShell && number < FacesOfShell))
   {
     return { true, dimension };
@@ -136,11 +135,11 @@ ElementSide abaqusSide(int kind, std::size_t corners, std::uint32_t number)
   return {};
 }
 
-const char* abaqusFaceName(std::size_t cornersOfCell, std::size_t opposite)
+const char* abaqusFaceName(bool isSolid, std::size_t side)
 {
   constexpr std::array OfTetrahedron{ "S3", "S4", "S2", "S1" };
-  constexpr std::array OfTriangle{ "E2", "E3", "E1" };
-  return cornersOfCell == 4 ? OfTetrahedron[opposite] : OfTriangle[opposite];
+  constexpr std::array OfPolygon{ "E1", "E2", "E3", "E4" };
+  return isSolid ? OfTetrahedron[side] : OfPolygon[side];
 }
 
 } // namespace smg

@@ -12,15 +12,10 @@ namespace smg
 {
 
 /** The shape of the elements of a type of Abaqus and CalculiX. */
-struct AbaqusShape
+struct AbaqusShape : ElementKind
 {
-  std::uint8_t dimension = 0;
   std::uint8_t corners = 0; ///< the first of its nodes
   std::uint8_t nodes = 0;
-  bool isShell = false; ///< a surface in space, whose sides 1 and 2 are its faces
-
-  /** As one number, for ListedElements. */
-  int kind() const { return this->dimension + (this->isShell ? 4 : 0); }
 };
 
 /** The shape of a type, as C3D4 or CPS3, in capitals; none: elements of the type have no cells, or
@@ -32,9 +27,10 @@ std::optional<AbaqusShape> abaqusShape(std::string_view type);
 std::optional<std::uint32_t> abaqusSideNumber(std::string_view name);
 
 /** The side of this number, of elements of this kind with so many corners. */
-ElementSide abaqusSide(int kind, std::size_t corners, std::uint32_t number);
+ElementSide abaqusSide(ElementKind kind, std::size_t corners, std::uint32_t number);
 
-/** The name of the face of a tetrahedron, or of the edge of a triangle, opposite to a corner. */
-const char* abaqusFaceName(std::size_t cornersOfCell, std::size_t opposite);
+/** The name of a side in groups: of the face of a tetrahedron opposite to this corner, or of this
+ * edge of a polygon, see GroupSides::Side. */
+const char* abaqusFaceName(bool isSolid, std::size_t side);
 
 } // namespace smg

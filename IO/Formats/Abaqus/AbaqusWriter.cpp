@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Abaqus/AbaqusWriter.h"
 
+#include "IO/Export/GroupSides.h"
 #include "IO/Export/PlacedColumns.h"
-#include "IO/Export/WrittenGroups.h"
 #include "IO/Files/FileNames.h"
 #include "IO/Files/TextOutput.h"
 #include "IO/Formats/Abaqus/AbaqusLines.h"
@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-// Sets are written where their members come, so that none is held: a set that is written again
+// Sets are written as their members come, so that only some are held: a set that is written again
 // grows. Surfaces name a set of elements for each of their sides, as Abaqus/CAE writes them.
 
 namespace smg
@@ -66,22 +66,21 @@ std::string withoutQuotes(const std::string& name)
 class AbaqusMeshWriter : public MeshFileWriter
 {
 public:
-  AbaqusMeshWriter(const std::filesystem::path& path, const MeshFileInfo& info)
+  AbaqusMeshWriter(
+    const std::filesystem::path& path, const MeshFileInfo& info, Workspace& workspace)
     : Out(path)
     , Info(info)
     , Columns(info)
-    , Groups(info, this->Columns)
-    , Names(abaqusNames(info.groupTable.groups, this->Notes))
+    , Cells(this->Columns.integerOfElements({ CellGroupsName }))
+    , Sides(info, this->Columns, workspace)
+    , Names(abaqusNames(this->groups(), this->Notes))
   {
+    this->Columns.integerOfVertices({ VertexGroupsName });
     this->Out << "*HEADING\nmesh\n*NODE\n";
   }
 
   void vertices(const VertexChunk& chunk) override
   {
-    if (chunk.first > 0 && this->NeedsHeader)
-    {
-      this->Out << "*NODE\n";
-    }
     chunk.forEach(
       [&](std::span<const double, 3> position, std::size_t vertex)
       {
@@ -94,17 +93,6 @@ public:
         }
         this->Out << '\n';
       });
-    Members members;
-    this->Groups.forEachVertex(chunk,
-      [&](std::size_t vertex, std::span<const std::uint32_t> groups)
-      {
-        for (const std::uint32_t group : groups)
-        {
-          members[{ group, 0 }].push_back(chunk.first + static_cast<std::int64_t>(vertex) + 1);
-        }
-      });
-    this->NeedsHeader = !members.empty();
-    this->write(members);
   }
 
   void elements(const ElementChunk& chunk) override
@@ -136,7 +124,8 @@ public:
 
   bool needsElementsAgain() override
   {
-    const bool again = !this->WritesSets && (this->Groups.hasCells() || this->Groups.hasFacets());
+    const bool again = !this->WritesSets && this->Info.groups &&
+                       (this->Cells >= 0 || this->Info.groups->memberships(GroupOf::Facets) > 0);
     this->WritesSets = true;
     this->Elements = 0;
     return again;
@@ -144,8 +133,9 @@ public:
 
   WriteNotes finish() override
   {
+    this->writeNodeSets();
     std::uint32_t last = NoIndex;
-    for (const auto& [group, side] : this->Sides)
+    for (const auto& [group, side] : this->Surfaces)
     {
       if (group != last)
       {
@@ -157,6 +147,7 @@ public:
     this->Out.finish();
     WriteNotes notes = this->Columns.leftOut(".inp");
     notes.insert(notes.end(), this->Notes.begin(), this->Notes.end());
+    this->Sides.note(notes);
     return notes;
   }
 
@@ -165,13 +156,13 @@ private:
   using Member = std::pair<std::uint32_t, std::uint32_t>;
   using Members = std::map<Member, std::vector<std::int64_t>>;
 
-  std::size_t cornersOfCell() const
+  std::vector<Group> groups() const
   {
-    return static_cast<std::size_t>(cornersOf(this->Info.cellType));
+    return this->Info.groups ? this->Info.groups->groups().groups : std::vector<Group>();
   }
   const char* faceOf(std::uint32_t side) const
   {
-    return abaqusFaceName(this->cornersOfCell(), side - 1);
+    return abaqusFaceName(this->Info.cellType == CellType::Tetrahedron, side - 1);
   }
   /** The set of elements of a side of a surface. */
   std::string setOf(std::uint32_t group, std::uint32_t side) const
@@ -180,38 +171,59 @@ private:
     return this->Names[group].starts_with('"') ? '"' + name + '"' : name;
   }
 
-  /** Labels of the elements of a chunk count on, since polygons may have become triangles. */
+  /** Labels of elements count on, since polygons may have become triangles. */
   void writeSets(const ElementChunk& chunk)
   {
-    std::vector<std::int64_t> labels;
-    chunk.forEach(
-      [&](std::span<const std::int64_t> corners, std::size_t)
-      {
-        labels.push_back(this->Elements + 1);
-        this->Elements += corners.size() > 4 ? std::ssize(corners) - 2 : 1;
-      });
-    labels.push_back(this->Elements + 1);
     Members members;
-    this->Groups.forEachCell(chunk,
-      [&](std::size_t element, std::span<const std::uint32_t> groups)
+    this->Sides.forEach(chunk, 4,
+      [&](
+        std::span<const std::int64_t>, std::size_t element, std::span<const GroupSides::Side> sides)
       {
-        for (const std::uint32_t group : groups)
+        ++this->Elements;
+        if (this->Cells >= 0)
         {
-          for (std::int64_t label = labels[element]; label < labels[element + 1]; ++label)
+          const GroupSet set =
+            chunk.columns[static_cast<std::size_t>(this->Cells)].as<GroupSet>()[element];
+          for (const std::uint32_t group : this->Info.groups->groupsOf(set, GroupOf::Cells))
           {
-            members[{ group, 0 }].push_back(label);
+            members[{ group, 0 }].push_back(this->Elements);
+          }
+        }
+        for (const GroupSides::Side& side : sides)
+        {
+          for (const std::uint32_t group : this->Info.groups->groupsOf(side.set, GroupOf::Facets))
+          {
+            const Member member{ group, static_cast<std::uint32_t>(side.number) + 1 };
+            members[member].push_back(this->Elements);
+            this->Surfaces.insert(member);
           }
         }
       });
-    this->Groups.forEachFacet(chunk,
-      [&](std::size_t element, std::size_t opposite, std::span<const std::int64_t>,
-        std::span<const std::uint32_t> groups)
+    this->write(members);
+  }
+
+  void writeNodeSets()
+  {
+    if (!this->Info.groups)
+    {
+      return;
+    }
+    constexpr std::size_t MostHeld = std::size_t(64) << 10;
+    Members members;
+    std::size_t held = 0;
+    this->Info.groups->forEach(GroupOf::Vertices,
+      [&](std::span<const std::int64_t> vertex, GroupSet set, std::int64_t)
       {
-        for (const std::uint32_t group : groups)
+        for (const std::uint32_t group : this->Info.groups->groupsOf(set, GroupOf::Vertices))
         {
-          const Member member{ group, static_cast<std::uint32_t>(opposite) + 1 };
-          members[member].push_back(labels[element]);
-          this->Sides.insert(member);
+          members[{ group, 0 }].push_back(vertex[0] + 1);
+          ++held;
+        }
+        if (held > MostHeld)
+        {
+          this->write(members);
+          members.clear();
+          held = 0;
         }
       });
     this->write(members);
@@ -222,7 +234,7 @@ private:
     for (const auto& [member, labels] : members)
     {
       const auto& [group, side] = member;
-      const bool ofNodes = this->Info.groupTable.groups[group].of == GroupOf::Vertices;
+      const bool ofNodes = this->Info.groups->groups().groups[group].of == GroupOf::Vertices;
       this->Out << (ofNodes ? "*NSET, NSET=" : "*ELSET, ELSET=")
                 << (side > 0 ? this->setOf(group, side) : this->Names[group])
                 << (side > 0 ? ", INTERNAL\n" : "\n");
@@ -238,21 +250,22 @@ private:
   TextOutput Out;
   const MeshFileInfo Info;
   PlacedColumns Columns;
-  WrittenGroups Groups;
+  std::ptrdiff_t Cells; ///< column of their sets; -1: there is none
+  GroupSides Sides;
   WriteNotes Notes;
   std::vector<std::string> Names; ///< of the groups
-  std::set<Member> Sides;         ///< of surfaces
+  std::set<Member> Surfaces;      ///< and their sides
   std::string_view Type;          ///< of the last elements
   std::int64_t Elements = 0;
-  bool NeedsHeader = false, WritesSets = false;
+  bool WritesSets = false;
 };
 
 } // namespace
 
 std::unique_ptr<MeshFileWriter> makeAbaqusWriter(
-  const std::filesystem::path& path, const MeshFileInfo& info, Workspace*)
+  const std::filesystem::path& path, const MeshFileInfo& info, Workspace* workspace)
 {
-  return std::make_unique<AbaqusMeshWriter>(path, info);
+  return std::make_unique<AbaqusMeshWriter>(path, info, *workspace);
 }
 
 std::int64_t bytesOfAbaqus(const MeshToWrite& written)

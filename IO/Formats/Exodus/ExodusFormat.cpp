@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Files/InputFile.h"
 #include "IO/Formats/Exodus/ExodusReader.h"
+#include "IO/Formats/Exodus/ExodusWriter.h"
 #include "IO/Mesh/Format.h"
 #include "smg/Error.h"
 
@@ -44,13 +45,20 @@ constexpr FileSuffix ExodusSuffixes[] = { { ".e" }, { ".exo" }, { ".ex2" }, { ".
 const Format ExodusFormat{
   .name = "Exodus II",
   .suffixes = ExodusSuffixes,
-  .description = "netCDF, classic (also of 64 bits) and HDF5; one of any number of time steps",
+  .description = "netCDF, classic (also of 64 bits) and HDF5; one of any number of time steps; "
+                 "written as classic netCDF",
   .cells = "solids, shells and plane elements; the corners of higher-order ones",
+  .holdsColumns = true,
+  .groups = GroupForm::Sides,
   .hasMagic = isNetCdf,
   .parse = importExodus,
   .hasParts = true,
   .times = timesOfFile,
   .typicalBytes = { 140, 4 },
+  .bytes = bytesOfExodus,
+  .writer = makeExodusWriter,
+  .writeOrder = WriteOrder::ElementsFirst,
+  .maxCorners = 4,
 };
 
 } // namespace smg

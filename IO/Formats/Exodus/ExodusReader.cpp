@@ -9,6 +9,7 @@
 #include "IO/Import/ImportColumn.h"
 #include "IO/Import/ListedElements.h"
 #include "IO/Import/RawMeshBuilder.h"
+#include "IO/Mesh/Columns.h"
 #include "Solver/Core/Text.h"
 #include "smg/Error.h"
 
@@ -315,7 +316,7 @@ private:
         if (this->HasSides)
         {
           this->Listed.add(
-            static_cast<std::uint32_t>(this->Builder.elements()), block.shape->kind(), corners);
+            static_cast<std::uint32_t>(this->Builder.elements()), *block.shape, corners);
         }
         this->Builder.element(block.shape->dimension, corners, block.nodes > block.shape->corners);
       }

@@ -40,23 +40,23 @@ std::optional<ExodusShape> exodusShape(
   { return std::ranges::find(counts, nodes) != counts.end(); };
   const bool isShell = dimensions == 3;
   const auto surface = [&](std::uint8_t corners) {
-    return std::optional(ExodusShape{ 2, corners, isShell });
+    return std::optional(ExodusShape{ { 2, isShell }, corners });
   };
   if (upper == "TET" && isOneOf({ 4, 8, 10, 11, 14, 15 }))
   {
-    return ExodusShape{ 3, 4 };
+    return ExodusShape{ { 3 }, 4 };
   }
   if (upper == "HEX" && isOneOf({ 8, 9, 20, 21, 27 }))
   {
-    return ExodusShape{ 3, 8 };
+    return ExodusShape{ { 3 }, 8 };
   }
   if (upper == "WED" && isOneOf({ 6, 12, 15, 16, 18, 20, 21 }))
   {
-    return ExodusShape{ 3, 6 };
+    return ExodusShape{ { 3 }, 6 };
   }
   if (upper == "PYR" && isOneOf({ 5, 13, 14, 18, 19 }))
   {
-    return ExodusShape{ 3, 5 };
+    return ExodusShape{ { 3 }, 5 };
   }
   const bool isSurface = upper == "TRI" || upper == "SHE" || upper == "QUA";
   if (isSurface && isOneOf({ 3, 6, 7 }))
@@ -75,16 +75,15 @@ std::optional<ExodusShape> exodusShape(
                       upper == "ROD" || upper == "LIN";
   if (isLine && isOneOf({ 2, 3, 4 }))
   {
-    return ExodusShape{ 1, 2 };
+    return ExodusShape{ { 1 }, 2 };
   }
   return {};
 }
 
-ElementSide exodusSide(int kind, std::size_t corners, std::uint32_t number)
+ElementSide exodusSide(ElementKind kind, std::size_t corners, std::uint32_t number)
 {
   constexpr std::uint32_t FacesOfShell = 2;
-  const bool isShell = kind >= 4;
-  const int dimension = kind % 4;
+  const auto [dimension, isShell] = kind;
   if (isShell && number <= FacesOfShell)
   {
     return { true, dimension };

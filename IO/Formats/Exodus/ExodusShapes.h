@@ -12,14 +12,9 @@ namespace smg
 {
 
 /** The shape of the elements of a block of an Exodus file. */
-struct ExodusShape
+struct ExodusShape : ElementKind
 {
-  std::uint8_t dimension = 0;
   std::uint8_t corners = 0; ///< the first of its nodes
-  bool isShell = false;     ///< a surface in space, whose sides 1 and 2 are its faces
-
-  /** As one number, for ListedElements. */
-  int kind() const { return this->dimension + (this->isShell ? 4 : 0); }
 };
 
 /** The shape of elements of this type, as TETRA or HEX8, with so many nodes in a space of so many
@@ -28,6 +23,6 @@ std::optional<ExodusShape> exodusShape(
   std::string_view type, std::int64_t nodes, std::int64_t dimensions);
 
 /** Side `number`, from 1 on, of elements of this kind with so many corners. */
-ElementSide exodusSide(int kind, std::size_t corners, std::uint32_t number);
+ElementSide exodusSide(ElementKind kind, std::size_t corners, std::uint32_t number);
 
 } // namespace smg

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Files/InputFile.h"
-#include "IO/Files/TextOutput.h"
 #include "IO/Files/TextScanner.h"
+#include "IO/Formats/Gmsh/GmshData.h"
 #include "IO/Formats/Gmsh/GmshInput.h"
 #include "IO/Formats/Gmsh/GmshSections.h"
 #include "IO/Formats/Gmsh/WriteGmsh.h"
@@ -28,7 +28,10 @@ public:
     : Input(file, &builder.workspace())
     , Builder(builder)
     , Nodes(builder.workspace(), "nodes")
+    , NodeNumbers(builder.workspace())
+    , ElementNumbers(builder.workspace())
     , Tags(builder)
+    , Data(builder)
   {
   }
 
@@ -41,6 +44,7 @@ public:
       {
         this->readSection(name);
       }
+      this->Data.finish(this->NodeNumbers, this->ElementNumbers);
       this->Tags.finish();
     }
     catch (const MeshError& error)
@@ -71,13 +75,20 @@ private:
       this->Input.endSection(end);
       return;
     }
+    const bool areOfNodes = name == "$NodeData", areOfElements = name == "$ElementData";
+    if ((areOfNodes || areOfElements) && this->Input.hasFormat() && !this->Builder.looks())
+    {
+      this->Data.read(this->Input, areOfNodes ? ColumnOf::Vertices : ColumnOf::Elements);
+      this->Input.endSection(end);
+      return;
+    }
+    if (name == "$ElementNodeData" && !this->Builder.looks())
+    {
+      this->Builder.note("Data of the nodes of elements ($ElementNodeData) are left out.");
+    }
     const bool areEntities = name == "$Entities" && this->Input.hasBlocks();
     const bool areParts = name == "$PartitionedEntities" && this->Input.hasBlocks();
-    if (areParts && this->Input.isFourZero())
-    {
-      this->Builder.note("The mesh is partitioned: the physical groups of its parts are not read.");
-    }
-    const bool hasGroups = areEntities || (areParts && !this->Input.isFourZero());
+    const bool hasGroups = areEntities || areParts;
     const bool isParametric = name == "$ParametricNodes";
     const bool areNodes = name == "$Nodes" || name == "$NOD" || isParametric;
     if (!areNodes && name != "$Elements" && name != "$ELM" && !hasGroups)
@@ -136,6 +147,12 @@ private:
     }
   }
 
+  void addNode(std::int64_t tag)
+  {
+    this->NodeNumbers.add(tag, this->Nodes.count());
+    this->Nodes.add(tag);
+  }
+
   void readPoint()
   {
     std::array<double, 3> point{};
@@ -160,7 +177,7 @@ private:
     }
     for (std::int64_t i = 0; i < nodes; ++i)
     {
-      this->Nodes.add(this->Input.integer("the tag of a node"));
+      this->addNode(this->Input.integer("the tag of a node"));
       this->readPoint();
       if (areParametric)
       {
@@ -243,13 +260,13 @@ private:
     }
     for (std::int64_t i = 0; tagsFirst && i < nodes; ++i)
     {
-      this->Nodes.add(this->blockTag("the tag of a node"));
+      this->addNode(this->blockTag("the tag of a node"));
     }
     for (std::int64_t i = 0; i < nodes; ++i)
     {
       if (!tagsFirst)
       {
-        this->Nodes.add(this->blockTag("the tag of a node"));
+        this->addNode(this->blockTag("the tag of a node"));
       }
       this->readPoint();
       for (std::int64_t k = 0; k < dimension * parametric; ++k)
@@ -265,15 +282,15 @@ private:
     const std::int64_t elements = this->Input.lineCount("the number of elements", 8, 8);
     for (std::int64_t i = 0; i < elements; ++i)
     {
-      this->Input.integer("the tag of an element");
+      const std::int64_t number = this->Input.integer("the tag of an element");
       const GmshElementType type = this->readType();
-      this->readTags(
-        type, this->Input.isFirstVersion() ? 2 : this->Input.count("the number of tags", 2, 4));
+      const GroupAndEntity tags = this->readTags(
+        this->Input.isFirstVersion() ? 2 : this->Input.count("the number of tags", 2, 4));
       if (this->Input.isFirstVersion())
       {
         this->checkNodes(type, this->Input.integer("the number of nodes of an element"));
       }
-      this->readElement(type, [this] { return this->Input.integer("a node of an element"); });
+      this->readTaggedElement(number, type, tags);
     }
   }
 
@@ -297,9 +314,8 @@ private:
       }
       for (std::int64_t i = 0; i < group; ++i)
       {
-        this->Input.integer("the tag of an element");
-        this->readTags(type, tags);
-        this->readElement(type, [this] { return this->Input.integer("a node of an element"); });
+        const std::int64_t number = this->Input.integer("the tag of an element");
+        this->readTaggedElement(number, type, this->readTags(tags));
       }
       done += group;
     }
@@ -320,9 +336,9 @@ private:
       const std::int64_t count = this->Input.count("the number of elements of a block", 4, 8);
       for (std::int64_t i = 0; i < count; ++i)
       {
-        this->blockTag("the tag of an element");
-        this->Tags.add(groups, type.dimension, entity.tag);
-        this->readElement(type, [this] { return this->blockTag("a node of an element"); });
+        const std::int64_t number = this->blockTag("the tag of an element");
+        this->readCorners(type, [this] { return this->blockTag("a node of an element"); });
+        this->addElement(number, type, groups, entity.tag);
       }
     }
     this->checkSum(this->Builder.elements() - before, elements, "elements");
@@ -349,8 +365,13 @@ private:
     return type;
   }
 
+  struct GroupAndEntity
+  {
+    std::int64_t group, entity;
+  };
+
   /** The tags of an element of version 2: a physical group, an entity, and others. */
-  void readTags(GmshElementType type, std::int64_t tags)
+  GroupAndEntity readTags(std::int64_t tags)
   {
     std::array<std::int64_t, 2> first{ GmshTags::NoGroup, GmshTags::FirstEntity };
     for (std::int64_t k = 0; k < tags; ++k)
@@ -361,22 +382,52 @@ private:
         first[static_cast<std::size_t>(k)] = tag;
       }
     }
-    this->Tags.add(type.dimension, first[0], first[1]);
+    return { first[0], first[1] };
   }
 
-  void readElement(GmshElementType type, const auto& readTag)
+  /** An element of versions 1 and 2. One that is in several groups is there once for each, one
+   * after the other. */
+  void readTaggedElement(std::int64_t number, GmshElementType type, GroupAndEntity tags)
   {
-    std::array<std::int64_t, 8> corners{};
-    const std::size_t count = type.corners;
+    const std::array before = this->Corners;
+    this->readCorners(type, [this] { return this->Input.integer("a node of an element"); });
+    const GmshTags::Physicals groups = this->Tags.groupOf(type.dimension, tags.group);
+    const bool isLast = this->LastType == type && before == this->Corners &&
+                        tags.group != GmshTags::NoGroup && this->LastGroup != GmshTags::NoGroup &&
+                        tags.group != this->LastGroup;
+    this->LastType = type;
+    this->LastGroup = tags.group;
+    if (isLast)
+    {
+      this->ElementNumbers.add(number, this->Builder.elements() - 1, type.dimension);
+      this->Builder.alsoIn(this->Builder.elements() - 1, type.dimension,
+        std::span(this->Corners).first(type.corners), groups.set);
+      return;
+    }
+    this->addElement(number, type, groups, tags.entity);
+  }
+
+  void readCorners(GmshElementType type, const auto& readTag)
+  {
+    this->Corners.fill(0);
     for (std::size_t k = 0; k < type.nodes; ++k)
     {
       const std::int64_t tag = readTag();
-      if (k < count)
+      if (k < type.corners)
       {
-        corners[k] = tag;
+        this->Corners[k] = tag;
       }
     }
-    this->Builder.element(type.dimension, std::span(corners).first(count), type.nodes > count);
+  }
+
+  /** Adds the element whose corners were read. */
+  void addElement(std::int64_t number, GmshElementType type, const GmshTags::Physicals& groups,
+    std::int64_t entity)
+  {
+    this->ElementNumbers.add(number, this->Builder.elements(), type.dimension);
+    this->Tags.add(groups, type.dimension, entity);
+    this->Builder.element(
+      type.dimension, std::span(this->Corners).first(type.corners), type.nodes > type.corners);
   }
 
   void checkSum(std::int64_t found, std::int64_t promised, const std::string& things)
@@ -391,23 +442,18 @@ private:
   GmshInput Input;
   RawMeshBuilder& Builder;
   FileNumbers Nodes;
+  GmshNumbers NodeNumbers, ElementNumbers; ///< for data
   GmshTags Tags;
+  GmshData Data;
+  std::array<std::int64_t, 8> Corners{}; ///< of the last element
+  GmshElementType LastType;
+  std::int64_t LastGroup = GmshTags::NoGroup;
   bool HasNodes = false;
 };
 
 void importGmsh(InputFile& file, RawMeshBuilder& builder)
 {
   GmshReader(file, builder).read();
-}
-
-std::int64_t bytesOfGmsh(const MeshToWrite& written)
-{
-  constexpr double TypeAndTags = 8; // as "4 2 0 1 "
-  const StreamInfo& mesh = written.mesh;
-  return textBytes(mesh.vertices,
-           numberCharacters(mesh.vertices) + positionCharacters(mesh.doublePositions)) +
-         textBytes(mesh.cells, numberCharacters(mesh.cells) + TypeAndTags +
-                                 cornersOf(mesh.cellType) * numberCharacters(mesh.vertices));
 }
 
 bool isGmsh(std::string_view start)
@@ -425,12 +471,14 @@ const Format GmshFormat{
   .suffixes = GmshSuffixes,
   .description = "versions 1.0, 2.x, 4.0 and 4.1, text and binary; written as 2.2",
   .cells = "all of Gmsh; the corners of higher-order cells",
-  .holdsGroups = true,
+  .holdsColumns = true,
+  .groups = GroupForm::Elements,
   .hasMagic = isGmsh,
   .parse = parseWith<importGmsh>,
   .typicalBytes = { 250, 4 },
   .bytes = bytesOfGmsh,
   .writer = makeGmshWriter,
+  .scratch = scratchOfGmsh,
   .maxCorners = 4,
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Gmsh/GmshInput.h"
 
+#include <array>
 #include <optional>
 #include <string_view>
 
@@ -135,6 +136,65 @@ GmshInput::PhysicalName GmshInput::physicalName()
     std::string(rest.substr(begin + 1, end - begin - 1)) };
   this->Scanner.skipLine();
   return named;
+}
+
+GmshInput::DataHeader GmshInput::dataHeader()
+{
+  constexpr std::int64_t MostTags = 1000, MostComponents = 1000;
+  const auto tags = [this](const char* what)
+  {
+    const std::int64_t count = this->Scanner.count(what, 2);
+    if (count > MostTags)
+    {
+      this->fail(std::to_string(count) + " cannot be " + what);
+    }
+    return count;
+  };
+  DataHeader header;
+  const std::int64_t texts = tags("the number of texts of the data");
+  this->Scanner.skipLine();
+  for (std::int64_t i = 0; i < texts; ++i)
+  {
+    const std::string_view line = this->Scanner.restOfLine().value_or("");
+    const std::size_t begin = line.find('"'), end = line.rfind('"');
+    if (begin == std::string_view::npos || begin == end)
+    {
+      this->fail("the name of the data must be in quotation marks");
+    }
+    if (i == 0)
+    {
+      header.name = line.substr(begin + 1, end - begin - 1);
+    }
+    this->Scanner.skipLine();
+  }
+  const std::int64_t reals = tags("the number of real tags of the data");
+  for (std::int64_t i = 0; i < reals; ++i)
+  {
+    this->Scanner.number("a real tag of the data");
+  }
+  const std::int64_t integers = tags("the number of integer tags of the data");
+  std::array<std::int64_t, 3> first{};
+  for (std::int64_t i = 0; i < integers; ++i)
+  {
+    const std::int64_t tag = this->Scanner.integer("an integer tag of the data");
+    if (i < std::ssize(first))
+    {
+      first[static_cast<std::size_t>(i)] = tag;
+    }
+  }
+  header.step = first[0];
+  header.components = first[1];
+  header.entries = first[2];
+  if (integers < std::ssize(first) || header.components < 1 || header.components > MostComponents)
+  {
+    this->fail("data begin with their time step, their number of components, from 1 to " +
+               std::to_string(MostComponents) + ", and their number of values");
+  }
+  this->beginNumbers();
+  const auto numbers = static_cast<std::size_t>(header.components);
+  this->requireRoom(header.entries, "the number of values",
+    this->Binary ? sizeof(std::int32_t) + numbers * sizeof(double) : 2 + 2 * numbers);
+  return header;
 }
 
 void GmshInput::beginNumbers()

@@ -52,6 +52,15 @@ public:
   };
   PhysicalName physicalName();
 
+  /** What a section of data begins with: lines of text, also in a binary file. */
+  struct DataHeader
+  {
+    std::string name;
+    std::int64_t step = 0, components = 0, entries = 0;
+  };
+  /** Reads it; then entries follow, of a tag and `components` numbers each. */
+  DataHeader dataHeader();
+
   /** A count in a line of text, of items of at least this many bytes. */
   std::int64_t lineCount(const char* what, std::size_t minText, std::size_t minBinary);
   /** To be called before numbers. */
@@ -71,6 +80,12 @@ public:
   double number(const char* what)
   {
     return this->Binary ? this->Numbers.take<double>(what) : this->Scanner.number(what);
+  }
+  /** The same, which need not be finite. */
+  double anyNumber(const char* what)
+  {
+    return this->Binary ? this->Numbers.take<double>(what)
+                        : this->Scanner.toNumber(this->Scanner.token(), what, false);
   }
   /** Skips `count` items of `bytes` bytes each in a binary file. */
   void skipNumbers(std::int64_t count, std::size_t bytes)

@@ -19,6 +19,7 @@ struct GmshElementType
 {
   std::uint8_t dimension = 0, corners = 0;
   std::uint16_t nodes = 0; ///< 0: unknown type
+  bool operator==(const GmshElementType&) const = default;
 };
 
 /** The element type of this number in a .msh file. */
@@ -54,14 +55,14 @@ public:
   /** Those of an entity. */
   Physicals groupsOf(std::int64_t dimension, std::int64_t entity) const;
 
-  /** Appends the tags of the next element, which has a group of its own; 0: none. */
-  void add(int dimension, std::int64_t group, std::int64_t entity)
+  /** That of an element which has a group of its own; 0: none. */
+  Physicals groupOf(int dimension, std::int64_t group)
   {
-    this->add({ group, group == NoGroup ? GroupTable::None
-                                        : this->Builder.groups().numbered(dimension, group) },
-      dimension, entity);
+    return { group,
+      group == NoGroup ? GroupTable::None : this->Builder.groups().numbered(dimension, group) };
   }
-  /** Appends those of an element of an entity. */
+
+  /** Appends the tags of the next element. */
   void add(const Physicals& groups, int dimension, std::int64_t entity)
   {
     this->Builder.setGroups(groups.set);

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "IO/Export/MeshFileWriter.h"
+#include "IO/Mesh/Format.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 
@@ -12,5 +14,9 @@ namespace smg
 /** Begins a file of version 2.2, text; see MeshFileFunction. */
 std::unique_ptr<MeshFileWriter> makeGmshWriter(
   const std::filesystem::path& path, const MeshFileInfo& info, Workspace* workspace);
+
+/** About the bytes of such a file, and of the scratch files of its writer. */
+std::int64_t bytesOfGmsh(const MeshToWrite& written);
+std::int64_t scratchOfGmsh(const StreamInfo& mesh, std::int64_t memory, bool text);
 
 } // namespace smg

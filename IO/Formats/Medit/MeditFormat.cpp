@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Export/GroupElements.h"
-#include "IO/Export/MeshFileWriter.h"
-#include "IO/Export/PlacedColumns.h"
 #include "IO/Files/InputFile.h"
-#include "IO/Files/TextOutput.h"
 #include "IO/Files/TextScanner.h"
 #include "IO/Formats/Medit/MeditSections.h"
+#include "IO/Formats/Medit/WriteMedit.h"
 #include "IO/Import/ImportColumn.h"
 #include "IO/Import/RawMeshBuilder.h"
 #include "IO/Mesh/Columns.h"
@@ -226,184 +223,6 @@ void importMedit(InputFile& file, RawMeshBuilder& builder)
   MeditReader(file, builder).read();
 }
 
-/** Tetrahedra, or triangles and then quadrilaterals, then facets in groups; vertices and cells with
- * their references. Those of facets and, if no column has them, of cells are the numbers of their
- * groups. */
-class MeditWriter : public MeshFileWriter
-{
-public:
-  MeditWriter(const std::filesystem::path& path, const MeshFileInfo& info)
-    : Out(path)
-    , Info(info)
-    , Columns(info)
-    , VertexReferences(this->Columns.integerOfVertices({ ReferenceName, MarkerName }))
-    , References(this->Columns.integerOfElements({ ReferenceName, PhysicalTagName }))
-    , Sets(this->Columns.integerOfElements({ CellGroupsName }))
-    // All triangles of the stream, except for the two of each quadrilateral.
-    , Triangles(info.cellType == CellType::Triangle ? info.cells - 2 * info.quadrilaterals : 0)
-    , WritesQuadrilaterals(this->Triangles == 0)
-  {
-    this->Out << "MeshVersionFormatted " << (info.doublePositions ? 2 : 1)
-              << "\nDimension 3\nVertices\n"
-              << info.vertices << '\n';
-  }
-
-  void vertices(const VertexChunk& chunk) override
-  {
-    chunk.forEach(
-      [&](std::span<const double, 3> position, std::size_t vertex)
-      {
-        this->Out.position(position, this->Info.doublePositions);
-        this->Out.tuple(chunk.columns, this->VertexReferences, vertex, " 0");
-        this->Out << '\n';
-      });
-  }
-
-  void elements(const ElementChunk& chunk) override
-  {
-    if (chunk.first == 0)
-    {
-      this->beginSection();
-    }
-    const bool isSurface = this->Info.cellType == CellType::Triangle;
-    chunk.forEachUpTo(4,
-      [&](std::span<const std::int64_t> corners, std::size_t element)
-      {
-        if (isSurface && (corners.size() == 4) != this->WritesQuadrilaterals)
-        {
-          return;
-        }
-        for (std::size_t k = 0; k < corners.size(); ++k)
-        {
-          this->Out << (k > 0 ? " " : "") << corners[k] + 1;
-        }
-        const bool byGroups = this->Info.groups && this->Sets >= 0 && this->References < 0;
-        byGroups ? void(this->Out << ' ' << this->numberOf(chunk.columns, element))
-                 : this->Out.tuple(chunk.columns, this->References, element, " 0");
-        this->Out << '\n';
-      });
-  }
-
-  /** For the section of the quadrilaterals, which comes after the triangles. */
-  bool needsElementsAgain() override
-  {
-    const bool again = !this->WritesQuadrilaterals && this->Info.quadrilaterals > 0;
-    this->WritesQuadrilaterals = true;
-    return again;
-  }
-
-  WriteNotes finish() override
-  {
-    this->writeFacets();
-    this->Out << "End\n";
-    this->Out.finish();
-    WriteNotes notes = this->Columns.leftOut(".mesh");
-    this->noteGroups(notes);
-    if (this->Info.quadrilaterals > 0 && this->Info.quadrilaterals < this->Info.elements)
-    {
-      notes.push_back("The quadrilaterals come after the triangles, as the format has it.");
-    }
-    return notes;
-  }
-
-private:
-  /** The number of the first group of a cell; 0: it is in none. */
-  std::int64_t numberOf(const std::vector<Column>& columns, std::size_t element) const
-  {
-    const GroupSet set = columns[std::size_t(this->Sets)].as<GroupSet>()[element];
-    const std::vector<std::uint32_t> groups = this->Info.groups->groupsOf(set, GroupOf::Cells);
-    return groups.empty() ? 0 : this->Info.groups->numberOf(groups.front());
-  }
-
-  /** A facet is written once for each of its groups. */
-  void writeFacets()
-  {
-    const std::int64_t count =
-      this->Info.groups ? this->Info.groups->memberships(GroupOf::Facets) : 0;
-    if (count == 0)
-    {
-      return;
-    }
-    this->Out << (this->Info.cellType == CellType::Tetrahedron ? "Triangles\n" : "Edges\n") << count
-              << '\n';
-    this->Info.groups->forEach(GroupOf::Facets,
-      [this](std::span<const std::int64_t> corners, GroupSet set)
-      {
-        for (const std::uint32_t group : this->Info.groups->groupsOf(set, GroupOf::Facets))
-        {
-          for (const std::int64_t corner : corners)
-          {
-            this->Out << corner + 1 << ' ';
-          }
-          this->Out << this->Info.groups->numberOf(group) << '\n';
-        }
-      });
-  }
-
-  /** Groups have only numbers in the file. */
-  void noteGroups(WriteNotes& notes) const
-  {
-    if (!this->Info.groups)
-    {
-      return;
-    }
-    std::string names;
-    const std::vector<Group>& groups = this->Info.groups->groups().groups;
-    for (std::size_t g = 0; g < groups.size(); ++g)
-    {
-      if (!groups[g].name.empty() && groups[g].of != GroupOf::Vertices)
-      {
-        names += (names.empty() ? "" : ", ") + inQuotes(groups[g].name) + " is " +
-                 std::to_string(this->Info.groups->numberOf(static_cast<std::uint32_t>(g)));
-      }
-    }
-    if (!names.empty())
-    {
-      notes.push_back("Groups have only numbers in the file: " + names + '.');
-    }
-    if (this->Info.groups->memberships(GroupOf::Vertices) > 0)
-    {
-      notes.emplace_back("Groups of vertices are left out.");
-    }
-  }
-
-  void beginSection()
-  {
-    if (this->Info.cellType == CellType::Tetrahedron)
-    {
-      this->Out << "Tetrahedra\n" << this->Info.elements << '\n';
-    }
-    else if (this->WritesQuadrilaterals)
-    {
-      this->Out << "Quadrilaterals\n" << this->Info.quadrilaterals << '\n';
-    }
-    else
-    {
-      this->Out << "Triangles\n" << this->Triangles << '\n';
-    }
-  }
-
-  TextOutput Out;
-  const MeshFileInfo Info;
-  PlacedColumns Columns;
-  std::ptrdiff_t VertexReferences, References, Sets;
-  std::int64_t Triangles;
-  bool WritesQuadrilaterals; ///< otherwise, of a surface, the triangles
-};
-
-std::int64_t bytesOfMedit(const MeshToWrite& written)
-{
-  constexpr double NoReference = 2;
-  const StreamInfo& mesh = written.mesh;
-  PlacedColumns columns(mesh);
-  const std::ptrdiff_t ofVertices = columns.integerOfVertices({ ReferenceName, MarkerName });
-  const std::ptrdiff_t ofCells = columns.integerOfElements({ ReferenceName, PhysicalTagName });
-  return textBytes(mesh.vertices, positionCharacters(mesh.doublePositions) +
-                                    tupleCharacters(mesh.vertexColumns, ofVertices, NoReference)) +
-         textBytes(mesh.cells, cornersOf(mesh.cellType) * numberCharacters(mesh.vertices) +
-                                 tupleCharacters(mesh.cellColumns, ofCells, NoReference));
-}
-
 bool isMedit(std::string_view start)
 {
   return textAfterComments(start).starts_with("MeshVersionFormatted");
@@ -418,12 +237,12 @@ const Format MeditFormat{
   .suffixes = MeditSuffixes,
   .description = "text",
   .cells = "triangles, quadrilaterals, tetrahedra, hexahedra, prisms, pyramids",
-  .holdsGroups = true,
+  .groups = GroupForm::Elements,
   .hasMagic = isMedit,
   .parse = parseWith<importMedit>,
   .typicalBytes = { 200, 4 },
   .bytes = bytesOfMedit,
-  .writer = makeWriter<MeditWriter>,
+  .writer = makeMeditWriter,
   .maxCorners = 4,
 };
 

@@ -24,13 +24,13 @@ void MeditGroups::add(
                          : this->Builder.groups().numbered(section.dimension, reference);
   if (section.dimension == 1)
   {
-    this->Edges.add(static_cast<std::uint32_t>(this->EdgeCount++), 1, corners);
+    this->Edges.add(static_cast<std::uint32_t>(this->EdgeCount++), { 1 }, corners);
     this->Builder.grouped(1, corners, set);
     return;
   }
   if (section.dimension == 2)
   {
-    this->Surfaces.add(static_cast<std::uint32_t>(this->Builder.elements()), 2, corners);
+    this->Surfaces.add(static_cast<std::uint32_t>(this->Builder.elements()), { 2 }, corners);
   }
   this->Builder.setGroups(set);
   this->Builder.element(section.dimension, corners);

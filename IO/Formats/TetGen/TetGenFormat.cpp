@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Export/MeshFileWriter.h"
-#include "IO/Export/PlacedColumns.h"
 #include "IO/Files/FileNames.h"
 #include "IO/Files/Inflate.h"
 #include "IO/Files/InputFile.h"
-#include "IO/Files/TextOutput.h"
 #include "IO/Files/TextScanner.h"
 #include "IO/Formats/Foreign/ForeignFile.h"
+#include "IO/Formats/TetGen/WriteTetGen.h"
 #include "IO/Import/ImportColumn.h"
 #include "IO/Import/LabelGroups.h"
 #include "IO/Import/RawMeshBuilder.h"
@@ -251,56 +249,24 @@ private:
   std::vector<double> Attributes;
 };
 
-/** The name of a file before compression. */
-std::filesystem::path plainName(std::filesystem::path name)
-{
-  return isCompressedSuffix(lowerSuffix(name)) ? name.replace_extension() : name;
-}
-
-bool isOfElements(const std::filesystem::path& name)
-{
-  return lowerSuffix(plainName(name)) == ".ele";
-}
-
 /** The other file of the two, possibly also compressed; empty: there is none. */
 std::filesystem::path otherFile(const std::filesystem::path& name)
 {
   return plainOrCompressed(
-    plainName(name).replace_extension(isOfElements(name) ? ".node" : ".ele"));
+    plainTetGenName(name).replace_extension(isOfTetGenElements(name) ? ".node" : ".ele"));
 }
-
-/** Suffixes of the files of faces and edges, which a mesh may have. */
-constexpr const char *Faces = ".face", *Edges = ".edge";
 
 std::filesystem::path sideFile(const std::filesystem::path& name, const char* suffix)
 {
-  return plainOrCompressed(plainName(name).replace_extension(suffix));
+  return plainOrCompressed(plainTetGenName(name).replace_extension(suffix));
 }
 
 std::vector<std::filesystem::path> furtherTetGenInputs(const std::filesystem::path& path)
 {
-  std::vector<std::filesystem::path> others{ otherFile(path), sideFile(path, Faces),
-    sideFile(path, Edges) };
+  std::vector<std::filesystem::path> others{ otherFile(path), sideFile(path, TetGenFaces),
+    sideFile(path, TetGenEdges) };
   std::erase_if(others, [](const std::filesystem::path& other) { return other.empty(); });
   return others;
-}
-
-/** Both files that are written for a name: that of the nodes and that of the elements. */
-std::pair<std::filesystem::path, std::filesystem::path> writtenTetGen(
-  const std::filesystem::path& path)
-{
-  const auto with = [&path](const char* suffix)
-  {
-    return std::filesystem::path(path).replace_extension(
-      lowerSuffix(path) == suffix ? path.extension() : suffix);
-  };
-  return { with(".node"), with(".ele") };
-}
-
-std::vector<std::filesystem::path> furtherTetGenOutputs(const std::filesystem::path& path)
-{
-  const auto [nodes, elements] = writtenTetGen(path);
-  return { isOfElements(path) ? nodes : elements };
 }
 
 /** Calls `read` with a file beside the one that is read, which may be compressed. */
@@ -321,12 +287,12 @@ void withFurtherFile(const std::filesystem::path& path, Workspace& space, Read&&
 
 void importTetGen(InputFile& file, RawMeshBuilder& builder)
 {
-  const bool isElements = isOfElements(file.name());
+  const bool isElements = isOfTetGenElements(file.name());
   const std::filesystem::path otherPath = otherFile(file.name());
   if (otherPath.empty())
   {
     const std::filesystem::path absent =
-      plainName(file.name()).replace_extension(isElements ? ".node" : ".ele");
+      plainTetGenName(file.name()).replace_extension(isElements ? ".node" : ".ele");
     throw Error(file.name() + ": the file " + inQuotes(absent.string()) + ", which has the " +
                 (isElements ? "nodes" : "elements") + ", must lie beside it.");
   }
@@ -339,7 +305,7 @@ void importTetGen(InputFile& file, RawMeshBuilder& builder)
       reader.readNodes(isElements ? other : file);
       reader.readElements(isElements ? file : other);
     });
-  for (const auto& [suffix, dimension] : { std::pair(Faces, 2), std::pair(Edges, 1) })
+  for (const auto& [suffix, dimension] : { std::pair(TetGenFaces, 2), std::pair(TetGenEdges, 1) })
   {
     const std::filesystem::path sides = sideFile(file.name(), suffix);
     if (!sides.empty() && !builder.looks())
@@ -348,100 +314,6 @@ void importTetGen(InputFile& file, RawMeshBuilder& builder)
         sides, builder.workspace(), [&](InputFile& input) { reader.readSides(input, dimension); });
     }
   }
-}
-
-constexpr int AnyNumber = std::numeric_limits<int>::max();
-
-/** The column with the attributes of cells; -1: none. */
-std::ptrdiff_t cellAttributes(PlacedColumns& columns)
-{
-  const std::ptrdiff_t attributes = columns.ofElements(AttributeName, 1, AnyNumber);
-  return attributes < 0 ? columns.integerOfElements({ ReferenceName, PhysicalTagName })
-                        : attributes;
-}
-
-int components(const std::vector<ColumnSpec>& specs, std::ptrdiff_t column)
-{
-  return column < 0 ? 0 : specs[static_cast<std::size_t>(column)].components;
-}
-
-/** Both files: vertices with attributes and markers, tetrahedra or triangles with attributes. */
-class TetGenWriter : public MeshFileWriter
-{
-public:
-  TetGenWriter(const std::filesystem::path& path, const MeshFileInfo& info)
-    : Nodes(writtenTetGen(path).first)
-    , Elements(writtenTetGen(path).second)
-    , DoublePositions(info.doublePositions)
-    , CornersOfCell(cornersOf(info.cellType))
-    , Columns(info)
-    , Attributes(this->Columns.ofVertices(AttributeName, 1, AnyNumber))
-    , Markers(this->Columns.integerOfVertices({ MarkerName, ReferenceName }))
-    , CellAttributes(cellAttributes(this->Columns))
-  {
-    this->Nodes << info.vertices << " 3 " << components(info.vertexColumns, this->Attributes) << ' '
-                << components(info.vertexColumns, this->Markers) << '\n';
-    this->Elements << info.cells << ' ' << this->CornersOfCell << ' '
-                   << components(info.elementColumns, this->CellAttributes) << '\n';
-  }
-
-  void vertices(const VertexChunk& chunk) override
-  {
-    chunk.forEach(
-      [&](std::span<const double, 3> position, std::size_t vertex)
-      {
-        this->Nodes << chunk.first + static_cast<std::int64_t>(vertex) + 1 << ' ';
-        this->Nodes.position(position, this->DoublePositions);
-        this->Nodes.tuple(chunk.columns, this->Attributes, vertex);
-        this->Nodes.tuple(chunk.columns, this->Markers, vertex);
-        this->Nodes << '\n';
-      });
-  }
-
-  void elements(const ElementChunk& chunk) override
-  {
-    chunk.forEachUpTo(static_cast<std::size_t>(this->CornersOfCell),
-      [&](std::span<const std::int64_t> corners, std::size_t element)
-      {
-        this->Elements << ++this->Count;
-        this->Elements.corners(corners, 1);
-        this->Elements.tuple(chunk.columns, this->CellAttributes, element);
-        this->Elements << '\n';
-      });
-  }
-
-  WriteNotes finish() override
-  {
-    // Neither is renamed before both are on the disk.
-    this->Nodes.write();
-    this->Elements.write();
-    this->Nodes.finish();
-    this->Elements.finish();
-    return this->Columns.leftOut(".node and .ele");
-  }
-
-private:
-  TextOutput Nodes, Elements;
-  bool DoublePositions;
-  int CornersOfCell;
-  PlacedColumns Columns;
-  std::ptrdiff_t Attributes, Markers, CellAttributes;
-  std::int64_t Count = 0; ///< of cells
-};
-
-std::int64_t bytesOfTetGen(const MeshToWrite& written)
-{
-  const StreamInfo& mesh = written.mesh;
-  PlacedColumns columns(mesh);
-  const double attributes =
-    tupleCharacters(mesh.vertexColumns, columns.ofVertices(AttributeName, 1, AnyNumber)) +
-    tupleCharacters(mesh.vertexColumns, columns.integerOfVertices({ MarkerName, ReferenceName }));
-  const std::ptrdiff_t ofCells = cellAttributes(columns);
-  return textBytes(mesh.vertices, numberCharacters(mesh.vertices) +
-                                    positionCharacters(mesh.doublePositions) + attributes) +
-         textBytes(mesh.cells, numberCharacters(mesh.cells) +
-                                 cornersOf(mesh.cellType) * numberCharacters(mesh.vertices) +
-                                 tupleCharacters(mesh.cellColumns, ofCells));
 }
 
 constexpr FileSuffix TetGenSuffixes[] = { { ".node", true, true, FileForm::Text },
@@ -455,10 +327,11 @@ const Format TetGenFormat{
   .description = "two files in a folder, either of which may be named; the `.face` "
                  "and `.edge` beside them, if any, have groups",
   .cells = "triangles, tetrahedra",
+  .groups = GroupForm::Elements,
   .parse = parseWith<importTetGen>,
   .typicalBytes = { 200, 4 },
   .bytes = bytesOfTetGen,
-  .writer = makeWriter<TetGenWriter>,
+  .writer = makeTetGenWriter,
   .maxCorners = 3,
   .furtherInputs = furtherTetGenInputs,
   .furtherOutputs = furtherTetGenOutputs,

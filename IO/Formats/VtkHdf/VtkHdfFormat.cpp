@@ -95,7 +95,7 @@ const Format VtkHdfFormat{
                  "written as unstructured grid",
   .cells = "polygonal data, unstructured grids",
   .holdsColumns = true,
-  .holdsGroupColumns = true,
+  .groups = GroupForm::Columns,
   .hasMagic = isHdf5,
   .parse = parse,
   .counts = counts,
