@@ -6,6 +6,7 @@
 #include "Solver/Files/IoStatistics.h"
 #include "Solver/Files/ScratchFolder.h"
 #include "Solver/Memory/Buffer.h"
+#include "smg/Export.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -25,7 +26,7 @@ struct VertexStorage
 };
 
 /** A tuple of numbers for each vertex of a mesh stream, in an unnamed scratch file or in memory. */
-class VertexFile
+class SMG_EXPORT VertexFile
 {
 public:
   VertexFile(const VertexStorage& storage, int lanes);
