@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Gmsh/GmshData.h"
 
-#include "IO/External/ExternalSort.h"
 #include "IO/Files/FileNames.h"
 #include "IO/Import/ImportColumn.h"
 #include "Solver/Core/Text.h"
@@ -24,6 +23,12 @@ namespace
 std::uint64_t keyOf(std::int64_t number)
 {
   return static_cast<std::uint64_t>(number) ^ std::uint64_t(1) << 63;
+}
+
+/** From a number to one that is not smaller, without overflow. */
+std::uint64_t distanceOf(std::int64_t first, std::int64_t number)
+{
+  return static_cast<std::uint64_t>(number) - static_cast<std::uint64_t>(first);
 }
 
 std::int64_t numberOfKey(std::uint64_t key)
@@ -94,57 +99,64 @@ void GmshData::finish(GmshNumbers& nodes, GmshNumbers& elements)
   }
 }
 
+/** Sorts the values of a section by the places of their nodes or elements. */
+GmshData::Found GmshData::place(Section& section, GmshNumbers& numbers, RowSort& placed)
+{
+  Workspace& space = this->Builder.workspace();
+  const std::size_t valueBytes = section.rowBytes() - sizeof(std::int64_t);
+  const std::int64_t memory = space.available() / 4;
+  RowSort rows(space, memory, valueBytes);
+  BucketFile::Reader reader(section.rows);
+  std::vector<std::byte> values(valueBytes);
+  for (std::int64_t number = 0; reader.get(number) && reader.read(values);)
+  {
+    std::memcpy(rows.put(keyOf(number)), values.data(), valueBytes);
+  }
+  rows.sort();
+  ExternalSort<GmshNumbers::Run> runs(space, memory);
+  RecordFile<GmshNumbers::Run>::Reader unsorted(numbers.runs());
+  for (GmshNumbers::Run run{}; unsorted.next(run);)
+  {
+    runs.put(run);
+  }
+  runs.sort();
+  Found found;
+  GmshNumbers::Run run{};
+  bool has = runs.next(run);
+  for (RowSort::Row row; rows.next(row);)
+  {
+    const std::int64_t number = numberOfKey(row.key);
+    while (has && number > run.first && distanceOf(run.first, number) >= run.count)
+    {
+      has = runs.next(run);
+    }
+    if (!has || number < run.first)
+    {
+      ++found.unknown;
+      continue;
+    }
+    found.ofCells += run.dimension == this->Builder.dimension() ? 1 : 0;
+    std::memcpy(placed.put(run.place + distanceOf(run.first, number)), row.bytes, valueBytes);
+  }
+  placed.sort();
+  return found;
+}
+
 void GmshData::fill(Section& section, GmshNumbers& numbers)
 {
   Workspace& space = this->Builder.workspace();
-  const std::size_t valueBytes = section.components * sizeof(double);
-  const std::int64_t memory = space.available() / 6;
-  RowSort placed(space, memory, valueBytes);
-  std::int64_t unknown = 0, ofCells = 0;
-  {
-    RowSort rows(space, memory, valueBytes);
-    BucketFile::Reader reader(section.rows);
-    std::vector<std::byte> values(valueBytes);
-    for (std::int64_t number = 0; reader.get(number) && reader.read(values);)
-    {
-      std::memcpy(rows.put(keyOf(number)), values.data(), valueBytes);
-    }
-    rows.sort();
-    ExternalSort<GmshNumbers::Run> runs(space, memory);
-    RecordFile<GmshNumbers::Run>::Reader unsorted(numbers.runs());
-    for (GmshNumbers::Run run{}; unsorted.next(run);)
-    {
-      runs.put(run);
-    }
-    runs.sort();
-    GmshNumbers::Run run{};
-    bool has = runs.next(run);
-    for (RowSort::Row row; rows.next(row);)
-    {
-      const std::int64_t number = numberOfKey(row.key);
-      while (has && number - run.first >= run.count && number > run.first)
-      {
-        has = runs.next(run);
-      }
-      if (!has || number < run.first)
-      {
-        ++unknown;
-        continue;
-      }
-      ofCells += run.dimension == this->Builder.dimension() ? 1 : 0;
-      std::memcpy(placed.put(run.place + static_cast<std::uint64_t>(number - run.first)), row.bytes,
-        valueBytes);
-    }
-  }
+  const std::size_t valueBytes = section.rowBytes() - sizeof(std::int64_t);
+  RowSort placed(space, space.available() / 6, valueBytes);
+  const Found found = this->place(section, numbers, placed);
   section.rows = BucketFile(space);
   const bool ofVertices = section.of == ColumnOf::Vertices;
-  if (unknown > 0)
+  if (found.unknown > 0)
   {
-    this->Builder.note(counted(unknown, "value", "values") + " of the data " +
+    this->Builder.note(counted(found.unknown, "value", "values") + " of the data " +
                        inQuotes(section.name) + " are of no " + (ofVertices ? "node" : "element") +
                        " of the file, and left out.");
   }
-  if (!ofVertices && ofCells == 0)
+  if (!ofVertices && found.ofCells == 0)
   {
     this->Builder.note(
       "The data " + inQuotes(section.name) + " are left out, since no cell of the mesh has any.");
@@ -152,17 +164,12 @@ void GmshData::fill(Section& section, GmshNumbers& numbers)
   }
   ImportColumn column(this->Builder, section.of,
     { section.name, ScalarType::Float64, static_cast<int>(section.components) });
-  if (!column.exists())
-  {
-    return;
-  }
-  placed.sort();
   const std::vector<double> none(section.components, std::numeric_limits<double>::quiet_NaN());
   const auto count =
     static_cast<std::uint64_t>(ofVertices ? this->Builder.vertices() : this->Builder.elements());
   RowSort::Row row;
   bool has = placed.next(row);
-  for (std::uint64_t place = 0; place < count; ++place)
+  for (std::uint64_t place = 0; column.exists() && place < count; ++place)
   {
     const bool isHere = has && row.key == place;
     column.append(isHere ? std::span(row.bytes, valueBytes) : std::as_bytes(std::span(none)));

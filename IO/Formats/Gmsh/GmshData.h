@@ -2,6 +2,7 @@
 #pragma once
 
 #include "IO/External/BucketFile.h"
+#include "IO/External/ExternalSort.h"
 #include "IO/Formats/Gmsh/GmshInput.h"
 #include "IO/Import/RawMeshBuilder.h"
 
@@ -35,7 +36,9 @@ public:
   void add(std::int64_t number, std::int64_t place, int dimension = 0)
   {
     const auto next = static_cast<std::uint32_t>(place);
-    if (this->Last.count > 0 && number - this->Last.count == this->Last.first &&
+    if (this->Last.count > 0 && number > this->Last.first &&
+        static_cast<std::uint64_t>(number) - static_cast<std::uint64_t>(this->Last.first) ==
+          this->Last.count &&
         next == this->Last.place + this->Last.count && dimension == this->Last.dimension)
     {
       ++this->Last.count;
@@ -94,6 +97,12 @@ private:
   };
 
   Section& sectionOf(const GmshInput::DataHeader& header, ColumnOf of);
+  struct Found
+  {
+    std::int64_t unknown = 0; ///< values of no node or element
+    std::int64_t ofCells = 0; ///< values of elements that are cells
+  };
+  Found place(Section& section, GmshNumbers& numbers, RowSort& placed);
   void fill(Section& section, GmshNumbers& numbers);
 
   RawMeshBuilder& Builder;
