@@ -239,8 +239,9 @@ def read_exodus(data):
         nonlocal at
         for _ in entries():
             name()
-            kind = word()
-            at += (word() * {2: 1, 4: 4, 5: 4, 6: 8}[kind] + 3) // 4 * 4
+            size = {2: 1, 4: 4, 5: 4, 6: 8}[word()]
+            size *= word()
+            at += (size + 3) // 4 * 4
 
     extents = [(name(), word())[1] for _ in entries()]
     skip_attributes()

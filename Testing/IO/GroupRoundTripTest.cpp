@@ -133,7 +133,8 @@ TEST_F(GroupRoundTrip, OfEveryFormatKeepsNamesCountsAndSizes)
         {
           const bool isText = std::string(order) == "text";
           const std::filesystem::path path =
-            this->Folder / (std::string(order) + std::string(suffix.text));
+            this->Folder /
+            (std::string(order) + std::to_string(cornersOf(cells)) + std::string(suffix.text));
           SCOPED_TRACE(path.filename());
           if (isText && suffix.form != FileForm::Either)
           {
