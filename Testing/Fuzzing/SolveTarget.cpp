@@ -36,7 +36,8 @@ void solveOn(const VsmReader& mesh, Weights weights)
   problem.prepare(*source(), FuzzPlace::instance().workspace().folder());
   const std::unique_ptr<Solution> solution = solve(*source(), problem, smallSolve());
   checkSolution(*solution, Missing::Undetermined);
-  SolvedMesh solved(mesh, problem, *solution, { true, true, Workspace::MinMemory, 1 });
+  SolvedMesh solved(mesh, problem, *solution,
+    { .gradient = true, .flux = true, .memoryLimit = Workspace::MinMemory, .threads = 1 });
   for (MeshBlock block; solved.next(block);)
   {
     // All results are computed.
