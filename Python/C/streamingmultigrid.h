@@ -91,8 +91,8 @@ extern "C"
   /* Opens a mesh file of any format; one that is no .vsm is converted to a scratch file.
    * options: "memory" (bytes, or a text as "1GB"), "cells" ("triangles", "tets"), "weld"
    * (distance), "orient" (turn triangles), "time_step", "partition", "order" ("bfs", "spectral",
-   * "axis", "keep"), "problem" (an object as in a problem file: the order keeps near each other what
-   * it couples), "threads", "scratch" (folder), "scratch_limit" (bytes, or a text),
+   * "axis", "keep"), "problem" (an object as in a problem file: the order keeps near each other
+   * what it couples), "threads", "scratch" (folder), "scratch_limit" (bytes, or a text),
    * "checkpoint" (folder), "numbering"
    * ("columns": rows of arrays are those that int64 columns OriginalId and OriginalCellId of the
    * file name, if it has them; "rows": those of the file, such columns are renamed); of a .vsm that

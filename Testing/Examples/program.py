@@ -60,7 +60,12 @@ def read_vtk_xml(name):
     """The arrays of a .vtp or .vtu file, by name, as tuples."""
     codes = {"Float32": "f", "Float64": "d", "Int64": "q", "Int32": "i", "UInt16": "H", "UInt8": "B"}
     arrays = {}
-    for array in xml.parse(name).getroot().iter("DataArray"):
+    root = xml.parse(name).getroot()
+    of_field = list(root.iterfind("*/FieldData/DataArray"))
+    for array in root.iter("DataArray"):
+        if array in of_field:
+            assert array.get("format") == "ascii"
+            continue
         assert array.get("format") == "binary"
         # The number of bytes is encoded separately.
         text = array.text.strip()

@@ -158,7 +158,7 @@ def test_errors():
     done = run("solve", "torus.vsm", "o2.vsm", "--problem", name, "--memory", 1, code=1)
     assert "1 MiB" in done.stderr, done.stderr
     error = run("solve", "torus.vsm", "o2.smb", "--problem", name, code=1).stderr
-    assert "cannot hold a solution: write it as .vsm, .ply, .vtk, .vtp, .vtu" in error, error
+    assert "cannot hold a solution: write it as .vsm, .ply, .msh, .e, .exo, .ex2, .g, .vtk, .vtp, .vtu" in error, error
     error = run("solve", "torus.obj", "o2.xyz", "--problem", name, code=1).stderr
     assert ".vsm" in error and ".vtk," in error and ".smb" not in error, error
     error = run("smooth", "torus.obj", "o2.xyz", "--weld", 0.1, code=1).stderr

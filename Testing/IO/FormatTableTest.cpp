@@ -95,7 +95,8 @@ TEST(FormatTable, ListsFollowFromIt)
   EXPECT_EQ(suffixFor(FormatUse::Write, "a.ply.gz"), nullptr);
   EXPECT_EQ(suffixFor(FormatUse::Restore, "A.OBJ")->text, ".obj");
   EXPECT_EQ(suffixFor(FormatUse::WriteColumns, "a.sma"), nullptr);
-  EXPECT_EQ(suffixList(FormatUse::RestoreColumns, "or"), ".ply, .msh, .e, .exo, .ex2, .g, .vtk, .vtp or .vtu");
+  EXPECT_EQ(suffixList(FormatUse::RestoreColumns, "or"),
+    ".ply, .msh, .e, .exo, .ex2, .g, .vtk, .vtp or .vtu");
   using Names = std::vector<std::string>;
   EXPECT_TRUE(restoresColumns("a.vtu", Names{ "any" }));
   EXPECT_TRUE(restoresColumns("a.OBJ", Names{ "Colors" }));

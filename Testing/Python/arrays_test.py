@@ -534,7 +534,7 @@ class GroupsTest(unittest.TestCase):
         np.add.at(shares, triangles, area[:, None])
         np.testing.assert_allclose(u.read("Gradient"), sums / shares[:, None], atol=1e-12)
         self.assertIn("right: measure 24", str(u.report))
-        with self.assertRaisesRegex(smg.InputError, "integrals.*no group 'left'"):
+        with self.assertRaisesRegex(smg.Error, "integrals.*no group 'left'"):
             mesh.solve(dirichlet={0: 0.0}, integrals="left")
 
 

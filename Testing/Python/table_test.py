@@ -16,10 +16,10 @@ MESHES = {"surface": sphere(2), "solid": cube(3)}
 #: Where each kind of result can be written: the formats of meshes, by kind, and those with columns.
 COLUMNS = ("vsm", "vtk", "vtu", "vtkhdf")
 SUFFIXES = {
-    "surface": (*COLUMNS, "ply", "vtp", "obj", "off", "stl", "mesh", "msh", "node", "sma", "smb"),
-    "solid": (*COLUMNS, "mesh", "msh", "node", "sva", "svb"),
+    "surface": (*COLUMNS, "ply", "vtp", "obj", "off", "stl", "mesh", "msh", "node", "e", "sma", "smb"),
+    "solid": (*COLUMNS, "mesh", "msh", "node", "e", "sva", "svb"),
 }
-HOLD_COLUMNS = {"surface": (*COLUMNS, "ply", "vtp"), "solid": COLUMNS}
+HOLD_COLUMNS = {"surface": (*COLUMNS, "ply", "vtp", "msh", "e"), "solid": (*COLUMNS, "msh", "e")}
 #: Formats whose numbers are rounded, or that keep no order of vertices.
 LOSSY = {"stl", "sma", "smb", "sva", "svb", "obj", "off", "mesh", "msh", "node"}
 

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -245,7 +246,10 @@ void checkSolve(const Case& given, CheckedCase& to)
   }
   if (!isOther && !sameBits(found.values, expected.values))
   {
-    to.failure = "does not have the bits of the plain run";
+    to.failure = "does not have the bits of the plain run, but differs by " +
+                 std::to_string((found.values - expected.values).cwiseAbs().maxCoeff() /
+                                std::numeric_limits<double>::epsilon()) +
+                 " epsilon";
     return;
   }
   if (given.problem.value("weights", "") != "clamped")

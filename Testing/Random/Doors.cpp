@@ -48,6 +48,9 @@ public:
     this->Problem.prepare(this->Source);
     setOptions(run, this->Options);
     this->Options.scratch = this->Folder.path();
+    // As of files and filters: values with more digits than a double where fluxes need them.
+    this->Options.again = [given, run]
+    { return std::make_unique<MemorySource>(given.stream(), run.blockCells); };
   }
 
   Result solve()

@@ -393,7 +393,12 @@ bool Evaluation::isOfCells(const json& place) const
   {
     const json& names = place.at("group");
     return std::ranges::any_of(names.is_array() ? names : json::array({ names }),
-      [this](const json& name) { return !this->named(name, GroupOf::Cells).empty(); });
+      [this](const json& name)
+      {
+        const auto is = [&](GroupOf kind) { return !this->named(name, kind).empty(); };
+        // No density is on facets, which are refused where cells are needed.
+        return is(GroupOf::Cells) || (is(GroupOf::Facets) && !is(GroupOf::Vertices));
+      });
   }
   return (place.contains("mask") && this->cellColumn(place.at("mask"))) ||
          (place.contains("tag") && this->cellColumn(place.at("tag")[0]));

@@ -28,7 +28,7 @@ struct StreamMesh
   std::vector<std::int64_t> originalIds; ///< index in the test mesh of each stream vertex
   std::vector<Column> vertexColumns;     ///< a tuple per vertex
   std::vector<Column> cellColumns;       ///< a tuple per cell
-  MeshGroups groups = {};                     ///< which columns of sets may refer to
+  MeshGroups groups = {};                ///< which columns of sets may refer to
 
   std::int64_t vertices() const { return static_cast<std::int64_t>(this->positions.size() / 3); }
   std::int64_t cells() const

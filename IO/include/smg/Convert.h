@@ -55,7 +55,7 @@ enum class Numbering
   OfRows     ///< its rows; columns of these names are renamed
 };
 
-/** Groups of facets that a problem couples (ProblemDescription::periodic and ::interfaces). */
+/** Groups of facets that a problem couples (ProblemDescription::periodic and interfaces). */
 struct CoupledGroups
 {
   /** The names of the groups of one side and of the other. */

@@ -156,14 +156,14 @@ struct VertexCouplings
   /** Links that have an entry in Report::contacts. */
   struct Contact
   {
-    std::string name;
+    std::string name;   ///< in the report
     double coefficient; ///< the conductance of a link over its share of the area or length
   };
 
-  std::vector<Tie> ties;     ///< by ascending `vertex`, each once
-  std::vector<double> jumps; ///< `columns` a tie: what `vertex` has more than `to`; empty: 0
-  std::vector<Link> links;   ///< by ascending `from`, then `to`, then `contact`
-  std::vector<Contact> contacts;
+  std::vector<Tie> ties;         ///< by ascending `vertex`, each once
+  std::vector<double> jumps;     ///< `columns` a tie: what `vertex` has more than `to`; empty: 0
+  std::vector<Link> links;       ///< by ascending `from`, then `to`, then `contact`
+  std::vector<Contact> contacts; ///< that the links refer to
 };
 
 /**
