@@ -152,9 +152,9 @@ void GmshData::fill(Section& section, GmshNumbers& numbers)
   const bool ofVertices = section.of == ColumnOf::Vertices;
   if (found.unknown > 0)
   {
-    this->Builder.note(counted(found.unknown, "value", "values") + " of the data " +
-                       inQuotes(section.name) + " are of no " + (ofVertices ? "node" : "element") +
-                       " of the file, and left out.");
+    this->Builder.note("Of the data " + inQuotes(section.name) + ", " +
+                       counted(found.unknown, "value belongs", "values belong") + " to no " +
+                       (ofVertices ? "node" : "element") + " of the file: left out.");
   }
   if (!ofVertices && found.ofCells == 0)
   {
