@@ -20,8 +20,8 @@ SUFFIXES = {
     "solid": (*COLUMNS, "mesh", "msh", "node", "e", "sva", "svb"),
 }
 HOLD_COLUMNS = {"surface": (*COLUMNS, "ply", "vtp", "msh", "e"), "solid": (*COLUMNS, "msh", "e")}
-#: Formats whose numbers are rounded, or that keep no order of vertices.
-LOSSY = {"stl", "sma", "smb", "sva", "svb", "obj", "off", "mesh", "msh", "node"}
+#: Formats whose numbers are rounded, that keep no order of vertices, or that have columns by components.
+LOSSY = {"stl", "sma", "smb", "sva", "svb", "obj", "off", "mesh", "msh", "node", "e"}
 
 
 def table(kind, mesh):

@@ -562,8 +562,17 @@ std::int64_t bytesOfExodus(const MeshToWrite& written)
 {
   constexpr std::int64_t IndexBytes = 4;
   const StreamInfo& mesh = written.mesh;
-  return mesh.vertices * positionBytes(mesh) + mesh.cells * cornersOf(mesh.cellType) * IndexBytes +
-         columnBytes(mesh);
+  const auto rowBytes = [](const std::vector<ColumnSpec>& columns)
+  {
+    std::int64_t bytes = 0;
+    for (const ColumnSpec& column : columns)
+    {
+      bytes += column.components * (column.type == ScalarType::Float32 ? 4 : 8);
+    }
+    return bytes;
+  };
+  return mesh.vertices * (positionBytes(mesh) + rowBytes(mesh.vertexColumns)) +
+         mesh.cells * (cornersOf(mesh.cellType) * IndexBytes + rowBytes(mesh.cellColumns));
 }
 
 } // namespace smg

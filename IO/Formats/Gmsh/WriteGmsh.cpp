@@ -40,8 +40,8 @@ public:
     : Out(path)
     , Info(info)
     , Columns(info)
-    , Group(this->Columns.integerOfElements({ PhysicalTagName, ReferenceName }))
-    , Entity(this->Columns.integerOfElements({ GeometricalTagName }))
+    , Group(this->Columns.integerOfElements({ PhysicalTagName, ReferenceName, "gmsh:physical" }))
+    , Entity(this->Columns.integerOfElements({ GeometricalTagName, "gmsh:geometrical" }))
     , Sets(this->Columns.integerOfElements({ CellGroupsName }))
     , Dimension(cornersOf(info.cellType) - 1)
     // All cells of the stream, except for one of the two triangles of each quadrilateral.
@@ -310,8 +310,8 @@ namespace
 std::vector<ColumnSpec> gmshData(const StreamInfo& mesh, bool ofVertices)
 {
   PlacedColumns columns(mesh);
-  columns.integerOfElements({ PhysicalTagName, ReferenceName });
-  columns.integerOfElements({ GeometricalTagName });
+  columns.integerOfElements({ PhysicalTagName, ReferenceName, "gmsh:physical" });
+  columns.integerOfElements({ GeometricalTagName, "gmsh:geometrical" });
   columns.integerOfElements({ CellGroupsName });
   columns.integerOfVertices({ VertexGroupsName });
   std::vector<ColumnSpec> data;
