@@ -303,10 +303,10 @@ private:
                    nameOfSet(sets.first) + " and " + nameOfSet(sets.second);
       }
     }
-    description.notes.push_back(std::string(faces.isExact ? "" : "About ") +
-                                std::to_string(faces.count) +
-                                " faces of the boundary lie on others" + between +
-                                ". Bodies are not connected there: --weld joins them.");
+    description.notes.push_back(
+      std::string(faces.isExact ? "" : "About ") + std::to_string(faces.count) +
+      " faces of the boundary lie on others" + between +
+      ": bodies are not connected there, unless these points are merged (option --weld).");
   }
 
   void finishExtent(MeshDescription& description) const

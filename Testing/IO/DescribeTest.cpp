@@ -360,8 +360,9 @@ TEST(Describe, FacesThatBodiesHaveACopyOfEachAreCounted)
   EXPECT_EQ(apart.bodies, 2);
   EXPECT_EQ(apart.coincident_facets, 2 * 4 * 2);
   ASSERT_EQ(apart.notes.size(), 1U);
-  EXPECT_EQ(apart.notes[0], "16 faces of the boundary lie on others: 16 between 'chip' and 'sink'. "
-                            "Bodies are not connected there: --weld joins them.");
+  EXPECT_EQ(apart.notes[0],
+    "16 faces of the boundary lie on others: 16 between 'chip' and 'sink': bodies are "
+    "not connected there, unless these points are merged (option --weld).");
   EXPECT_EQ(described(toStream(tetBox(7, 5, 3))).coincident_facets, 0);
 }
 

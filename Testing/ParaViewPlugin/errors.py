@@ -122,7 +122,7 @@ calculator.UpdatePipeline()
 # Every other writer that ParaView has for it refuses it: see guarded_writers.py.
 factory = servermanager.vtkSMProxyManager.GetProxyManager().GetWriterFactory()
 suffixes = re.findall(r"\*\.(\w+)", factory.GetSupportedFileTypes(calculator.SMProxy, 0))
-written = {"vsm", "sma", "smb", "sva", "svb", "ply", "obj", "off", "stl", "mesh", "msh", "node", "ele", "inp", "vtk", "vtp", "vtu", "vtkhdf",
+written = {"vsm", "sma", "smb", "sva", "svb", "ply", "obj", "off", "stl", "mesh", "msh", "node", "ele", "inp", "e", "exo", "ex2", "g", "vtk", "vtp", "vtu", "vtkhdf",
            "pvtp", "pvtu"}
 assert "stl" in suffixes and "csv" in suffixes, suffixes
 whole = os.path.join(folder, "whole.obj")
