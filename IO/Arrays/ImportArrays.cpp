@@ -287,6 +287,7 @@ RawMesh importArrays(const MeshArrays& mesh, const std::string& name, CellChoice
   Workspace& workspace, const ProgressFunction& progress)
 {
   RawMeshBuilder builder(workspace, choice);
+  builder.setGroups(mesh.groups);
   MeshArraysImport(mesh, name, builder, progress).run();
   if (builder.cells() == 0)
   {

@@ -3,6 +3,7 @@
 
 #include "IO/Arrays/ArrayView.h"
 #include "smg/Convert.h"
+#include "smg/Groups.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -47,6 +48,7 @@ struct MeshArrays
   std::vector<CellArrays> cells; ///< the lists one after the other
   AttributeArrays ofPoints, ofCells;
   std::optional<ArrayView> ghosts; ///< VTK's ghost types of the cells
+  MeshGroups groups = {};          ///< which the columns of their sets refer to
 };
 
 } // namespace smg

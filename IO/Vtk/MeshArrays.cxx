@@ -3,6 +3,7 @@
 
 #include "IO/Formats/Vtk/VtkAttributes.h"
 #include "IO/Mesh/Columns.h"
+#include "IO/Vtk/GroupData.h"
 #include "IO/Vtk/PieceColumns.h"
 
 #include "vtkCellArray.h"
@@ -17,6 +18,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <string>
+#include <utility>
 
 namespace smg
 {
@@ -41,10 +43,34 @@ std::string nameOfArray(vtkDataSetAttributes& arrays, vtkAbstractArray& array)
   return {};
 }
 
+/** The groups of a mesh; none if an array has a set that they do not have. */
+MeshGroups groupsOf(vtkPointSet& mesh)
+{
+  MeshGroups groups = groupsIn(mesh);
+  const std::pair<vtkDataSetAttributes*, const char*> columns[] = { { mesh.GetPointData(),
+                                                                      VertexGroupsName },
+    { mesh.GetCellData(), FacetGroupsName }, { mesh.GetCellData(), CellGroupsName } };
+  for (const auto& [data, name] : columns)
+  {
+    vtkDataArray* const sets = data->GetArray(name);
+    for (int k = 0; sets && k < sets->GetNumberOfComponents(); ++k)
+    {
+      double range[2];
+      sets->GetRange(range, k);
+      if (range[1] >= static_cast<double>(groups.sets.size()))
+      {
+        return {};
+      }
+    }
+  }
+  return groups;
+}
+
 } // namespace
 
 VtkMeshArrays::VtkMeshArrays(vtkPointSet& mesh)
 {
+  this->Views.groups = groupsOf(mesh);
   if (vtkPoints* points = mesh.GetPoints())
   {
     this->Views.points = this->viewOf(*points->GetData());
