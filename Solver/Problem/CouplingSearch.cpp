@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Problem/CouplingSearch.h"
 
+#include "Solver/Assembly/Facets.h"
 #include "Solver/Core/Text.h"
 #include "Solver/Mesh/VisitCells.h"
 #include "Solver/Problem/TiedClasses.h"
@@ -27,6 +28,12 @@ std::string textOf(const Vector& point)
   return '(' + shortest(static_cast<float>(point[0])) + ", " +
          shortest(static_cast<float>(point[1])) + ", " + shortest(static_cast<float>(point[2])) +
          ')';
+}
+
+/** What an entry says of it, 0: nothing. */
+double toleranceOf(double given, const FacetList& first, const FacetList& second)
+{
+  return given > 0.0 ? given : usualTolerance(first, second);
 }
 
 } // namespace
@@ -108,17 +115,11 @@ void CouplingSearch::add(const MeshBlock& block)
         {
           continue;
         }
-        std::int64_t facet[3] = {};
+        const CellFacet facet = facetOf(this->Columns.cellType(), corner, k);
         const double* points[3] = {};
-        for (int e = 0, other = 0; e < corners; ++e)
-        {
-          if (e != k)
-          {
-            facet[other] = corner[e];
-            points[other++] = this->Points.at(corner[e]);
-          }
-        }
-        side.facets.add(facet, points);
+        std::transform(facet.vertex, facet.vertex + corners - 1, points,
+          [this](std::int64_t vertex) { return this->Points.at(vertex); });
+        side.facets.add(facet.vertex, points);
       }
     }
   }
@@ -218,8 +219,7 @@ std::vector<VertexCouplings::Tie> CouplingSearch::pairsOf(std::size_t entry) con
     return {}; // the selections complain, unless this is accepted
   }
   const Vector shift = shiftBetween(from.facets, to.facets);
-  const double given = this->Periodic[entry].tolerance;
-  const double tolerance = given > 0.0 ? given : usualTolerance(from.facets, to.facets);
+  const double tolerance = toleranceOf(this->Periodic[entry].tolerance, from.facets, to.facets);
   const FacetCopies copies = findCopies(from.facets, to.facets, shift, tolerance);
   if (!copies.alone.empty())
   {
@@ -255,8 +255,7 @@ std::vector<VertexCouplings::Tie> CouplingSearch::pairsOf(std::size_t entry) con
 std::vector<VertexCouplings::Link> CouplingSearch::linksOf(std::size_t entry) const
 {
   const Side& side = this->Sides[2 * this->Periodic.size() + entry];
-  const double given = this->Interfaces[entry].tolerance;
-  const double tolerance = given > 0.0 ? given : usualTolerance(side.facets, side.facets);
+  const double tolerance = toleranceOf(this->Interfaces[entry].tolerance, side.facets, side.facets);
   const FacetCopies copies = findCopies(side.facets, side.facets, {}, tolerance);
   if (!copies.alone.empty())
   {
