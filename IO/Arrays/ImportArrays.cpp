@@ -287,7 +287,10 @@ RawMesh importArrays(const MeshArrays& mesh, const std::string& name, CellChoice
   Workspace& workspace, const ProgressFunction& progress)
 {
   RawMeshBuilder builder(workspace, choice);
-  builder.setGroups(mesh.groups);
+  if (!mesh.groups.empty())
+  {
+    builder.setGroups(mesh.groups);
+  }
   MeshArraysImport(mesh, name, builder, progress).run();
   if (builder.cells() == 0)
   {

@@ -5,6 +5,7 @@
 #include "IO/Mesh/Columns.h"
 #include "IO/Vtk/GroupData.h"
 #include "IO/Vtk/PieceColumns.h"
+#include "smg/Error.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -43,7 +44,7 @@ std::string nameOfArray(vtkDataSetAttributes& arrays, vtkAbstractArray& array)
   return {};
 }
 
-/** The groups of a mesh; none if an array has a set that they do not have. */
+/** The groups of a mesh. Throws Error if an array has a set that they do not have. */
 MeshGroups groupsOf(vtkPointSet& mesh)
 {
   MeshGroups groups = groupsIn(mesh);
@@ -53,13 +54,15 @@ MeshGroups groupsOf(vtkPointSet& mesh)
   for (const auto& [data, name] : columns)
   {
     vtkDataArray* const sets = data->GetArray(name);
-    for (int k = 0; sets && k < sets->GetNumberOfComponents(); ++k)
+    for (int k = 0; !groups.empty() && sets && k < sets->GetNumberOfComponents(); ++k)
     {
       double range[2];
       sets->GetRange(range, k);
       if (range[1] >= static_cast<double>(groups.sets.size()))
       {
-        return {};
+        throw Error(std::string("The input has a set of groups in its array ") + name +
+                    " that its field array " + MeshGroupsName +
+                    " does not have: leave one of the two out.");
       }
     }
   }

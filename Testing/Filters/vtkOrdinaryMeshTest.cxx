@@ -13,6 +13,7 @@
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataSetTriangleFilter.h"
+#include "vtkFieldData.h"
 #include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
 #include "vtkPlane.h"
@@ -21,6 +22,9 @@
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
 #include "vtkSphereSource.h"
+#include "vtkStringArray.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnsignedShortArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
@@ -337,6 +341,56 @@ TEST_F(VtkOrdinaryMesh, ASphereOfParaViewTakesConditions)
       EXPECT_NEAR(solution->GetTuple1(i), std::copysign(expected, z), 0.01) << z;
     }
   }
+}
+
+/** As of a .vtu file in ParaView's own reader, which has texts, or the numbers of their characters.
+ */
+TEST_F(VtkOrdinaryMesh, FieldArraysNameGroups)
+{
+  const std::string groups = R"({"groups":[{"name":"low","number":1,"of":"vertices"},)"
+                             R"({"name":"high","number":2,"of":"vertices"}],"sets":[[0],[1]]})";
+  vtkNew<vtkStringArray> text;
+  text->InsertNextValue(groups);
+  vtkNew<vtkUnsignedCharArray> characters;
+  for (const char c : groups)
+  {
+    characters->InsertNextValue(static_cast<unsigned char>(c));
+  }
+  const auto solved = [&](vtkAbstractArray* field, unsigned short highest)
+  {
+    const vtkNew<vtkUnstructuredGrid> mesh = hexahedra(2);
+    vtkNew<vtkUnsignedShortArray> sets;
+    sets->SetName("VertexGroups");
+    for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
+    {
+      const double z = mesh->GetPoint(i)[2];
+      sets->InsertNextValue(z == 0 ? 1 : z == 2 ? highest : 0);
+    }
+    mesh->GetPointData()->AddArray(sets);
+    field->SetName("MeshGroups");
+    mesh->GetFieldData()->AddArray(field);
+    vtkNew<vtkStreamingPoisson> poisson;
+    poisson->SetInputData(mesh);
+    poisson->SetProblem(
+      R"({"dirichlet": [{"group": "low", "value": 0}, {"group": "high", "value": 1}]})");
+    const Errors errors(poisson);
+    poisson->Update();
+    if (!errors.text().empty())
+    {
+      return errors.text();
+    }
+    auto* output = vtkPointSet::SafeDownCast(poisson->GetOutputDataObject(0));
+    vtkDataArray* solution = output->GetPointData()->GetArray("Solution");
+    for (vtkIdType i = 0; i < 27; ++i)
+    {
+      EXPECT_NEAR(solution->GetTuple1(i), output->GetPoint(i)[2] / 2, 0.2) << i;
+    }
+    return std::string();
+  };
+  EXPECT_EQ(solved(text, 2), "");
+  EXPECT_EQ(solved(characters, 2), "");
+  EXPECT_PRED_FORMAT2(
+    ::testing::IsSubstring, "a set of groups in its array VertexGroups", solved(text, 9));
 }
 
 TEST_F(VtkOrdinaryMesh, ConditionsBeforeAJoinAreRefused)
