@@ -11,7 +11,6 @@
 #include "smg/WriteMesh.h"
 
 #include <algorithm>
-#include <cstring>
 #include <filesystem>
 #include <iterator>
 #include <limits>
@@ -34,8 +33,8 @@ void append(
   const char* name, int components, std::span<const double> values, std::vector<Column>& columns)
 {
   Column column{ { name, ScalarType::Float64, components }, {} };
-  column.bytes.resize(values.size_bytes());
-  std::memcpy(column.bytes.data(), values.data(), values.size_bytes());
+  const std::span<const std::byte> bytes = std::as_bytes(values);
+  column.bytes.assign(bytes.begin(), bytes.end());
   columns.push_back(std::move(column));
 }
 
