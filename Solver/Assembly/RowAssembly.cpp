@@ -385,7 +385,7 @@ void RowAssembly::count(std::int64_t i, const FinalVertices::Vertex& vertex, con
   }
   if (this->Listener)
   {
-    this->Listener->unknown(share, vertex.label);
+    this->Listener->unknown(share, vertex.label, vertex.rowSum + this->Raise);
   }
 }
 

@@ -230,8 +230,8 @@ public:
   /** The next vertex, which is free, has an edge to the constrained vertex index + delta. */
   virtual void link(std::int32_t delta, double weight) = 0;
   /** The next vertex is an unknown, whose initial residual counts as `share` (see commonShare());
-   * label: of its component, or -1. */
-  virtual void unknown(double /*share*/, std::int32_t /*label*/) {}
+   * label: of its component, or -1; rowSum: what it has on the diagonal besides its edges. */
+  virtual void unknown(double /*share*/, std::int32_t /*label*/, double /*rowSum*/) {}
   /** The target d_ij of the next edge in the row of the next vertex, one value per column. Called
    * only if the problem has edge targets; `target` is valid during the call. */
   virtual void target(const double* /*target*/) {}

@@ -4,9 +4,6 @@
 #include "Solver/Jobs/Deformation/DeformationReport.h"
 #include "Solver/Jobs/Deformation/PositionStep.h"
 #include "Solver/Jobs/Deformation/RotationProblem.h"
-#include "Solver/Multigrid/Engine/FirstPass.h"
-#include "Solver/Multigrid/Engine/Pass.h"
-#include "Solver/Multigrid/Engine/StreamedSolution.h"
 #include "Solver/Multigrid/Extended.h"
 
 #include <cmath>
@@ -26,7 +23,7 @@ void DeformationSteps::solve(const std::function<FirstResidual()>& build)
   if (!this->resume(rotations, positions, rotated))
   {
     rotations.convergence = Convergence(this->stopping(), build());
-    rotations.convergence.begin(this->Levels.residualNorm());
+    rotations.convergence.begin(this->System.levels().residualNorm());
     this->Context.endPass(1.0);
   }
   if (!rotated)
@@ -53,12 +50,12 @@ bool DeformationSteps::resume(Step& rotations, Step& positions, bool& rotated)
 {
   const auto save = [&](StateWriter& state)
   {
-    state(this->Levels, this->Rest, rotated, rotations.convergence);
+    state(this->System.levels(), this->Rest, rotated, rotations.convergence);
     rotated ? state(positions) : state(rotations.iteration);
   };
   const auto load = [&](StateReader& state)
   {
-    state(this->Levels, this->Rest, rotated, rotations.convergence);
+    state(this->System.levels(), this->Rest, rotated, rotations.convergence);
     if (rotated)
     {
       this->Context.progress.begin(this->stopping(), Share, 1.0, false);
@@ -75,8 +72,8 @@ bool DeformationSteps::resume(Step& rotations, Step& positions, bool& rotated)
  * positions. */
 void DeformationSteps::beginPositions(Step& rotations, Step& positions)
 {
-  PositionStep step(this->Context.pool, this->Rest, this->Levels.window());
-  const double norm = this->sharedPass(step);
+  PositionStep step(this->Context.pool, this->Rest, this->System.window(), this->positionScale());
+  const double norm = this->System.advance(step);
   checkMotions(step.termSquares());
   rotations.convergence.add(std::sqrt(step.rotationSquares()));
   rotations.convergence.addStep(this->Context.report, "rotation", "rotation step: ");
@@ -86,23 +83,6 @@ void DeformationSteps::beginPositions(Step& rotations, Step& positions)
   positions.convergence =
     Convergence(this->stopping(), { motion, roundingOf(step.termSquares()), motion });
   positions.convergence.begin(norm);
-}
-
-/** Returns the norm of the residual of the positions after their first sweeps. */
-double DeformationSteps::sharedPass(PositionStep& step)
-{
-  auto& finest = this->Levels.finest();
-  this->Levels.renew(PositionStep::Columns);
-  step.startPass();
-  Pass(this->Context, this->Levels)
-    .run(this->positionScale(), { [&step] { step.load(); },
-                                  [&step, &finest](bool follows)
-                                  {
-                                    step.advance(finest.finishedUp(step.turned(), follows));
-                                    finest.setRenewed(step.done());
-                                  } });
-  step.endPass();
-  return this->Levels.residualNorm();
 }
 
 /** An estimate of the largest residual of the positions: weights of triangles are of order 1, those
@@ -150,22 +130,20 @@ private:
 /** The operators are those with the fastest V-cycles: a deformation makes few of them, often a
  * given number. */
 DeformationEngine::DeformationEngine(const DeformOptions& options, CellType cells)
-  : Operators(compiled(Extended::forFewCycles(cells)))
-  , EdgeWeights(options.weights)
-  , Context(std::make_unique<SolveContext>(RotationProblem::Columns, options))
-  , Levels(*this->Context, RotationProblem::Columns, this->Operators.relaxation)
-  , Rest(this->Context->pool)
-  , Steps(*this->Context, this->Levels, this->Rest, options, cells)
+  : EdgeWeights(options.weights)
+  , System(compiled(Extended::forFewCycles(cells)), RotationProblem::Columns, options)
+  , Rest(this->System.context().pool)
+  , Steps(this->System, this->Rest, options, cells)
 {
-  if (this->Context->scratch)
+  if (SolveContext& context = this->System.context(); context.scratch)
   {
-    this->Rest.useScratch(*this->Context->scratch, this->Context->traffic.add("rest"));
+    this->Rest.useScratch(*context.scratch, context.traffic);
   }
 }
 
 void DeformationEngine::deform(MeshSource& mesh, Handles& handles)
 {
-  SolveContext& context = *this->Context;
+  SolveContext& context = this->System.context();
   context.beginReport();
   this->Steps.begin(true);
   this->Steps.solve(
@@ -173,10 +151,9 @@ void DeformationEngine::deform(MeshSource& mesh, Handles& handles)
     {
       RotationProblem problem(handles, this->EdgeWeights,
         [this](std::int64_t vertex, const double* target) { this->Rest.hold(vertex, target); });
-      FirstPass build(context, this->Levels, this->Operators);
       // Measured against the motion: rotations begin at 0.
       const FirstResidual first =
-        build.run(mesh, problem, &this->Rest, PositionStep::CoreBytes).alone();
+        this->System.build(mesh, problem, &this->Rest, PositionStep::CoreBytes).alone();
       this->Rest.finish();
       checkAnyHeld(context.report);
       context.report.shared = problem.shared();
@@ -203,11 +180,9 @@ void DeformationEngine::ask(MeshSource& mesh, Handles& handles)
 
 std::unique_ptr<Solution> DeformationEngine::takeSolution()
 {
-  SolveContext& context = *this->Context;
-  auto displacements =
-    std::make_unique<StreamedSolution>(std::move(this->Context), this->Levels.takeWindow());
+  SolveContext& context = this->System.context();
   auto solution =
-    std::make_unique<DeformedPositions>(std::move(displacements), std::move(this->Rest));
+    std::make_unique<DeformedPositions>(this->System.takeSolution(), std::move(this->Rest));
   context.progress.finish();
   return solution;
 }

@@ -2,11 +2,9 @@
 #pragma once
 
 #include "Solver/Jobs/Deformation/RestShape.h"
-#include "Solver/Multigrid/Engine/CompiledOperators.h"
 #include "Solver/Multigrid/Engine/Convergence.h"
-#include "Solver/Multigrid/Engine/Hierarchy.h"
 #include "Solver/Multigrid/Engine/Iteration.h"
-#include "Solver/Multigrid/Engine/SolveContext.h"
+#include "Solver/Multigrid/Engine/StreamedSystem.h"
 #include "smg/Deform.h"
 #include "smg/Solve.h"
 
@@ -17,17 +15,14 @@
 namespace smg
 {
 
-class PositionStep;
-
-/** The two problems of a deformation on one hierarchy: the rotations, then the positions. A shared
- * pass finishes the last V-cycle of the rotations and begins the first one of the positions. */
+/** The two systems of a deformation on one hierarchy: the rotations, then the positions. */
 class DeformationSteps
 {
 public:
-  DeformationSteps(SolveContext& context, Hierarchy& hierarchy, RestShape& rest,
-    const DeformOptions& options, CellType cells)
-    : Context(context)
-    , Levels(hierarchy)
+  DeformationSteps(
+    StreamedSystem& system, RestShape& rest, const DeformOptions& options, CellType cells)
+    : System(system)
+    , Context(system.context())
     , Rest(rest)
     , EdgeWeights(options.weights)
     , Cycles(options.cycles)
@@ -54,7 +49,7 @@ private:
   {
     Step(DeformationSteps& steps, const std::string& what)
       : convergence(steps.stopping(), {})
-      , iteration(steps.Context, steps.Levels, convergence, what)
+      , iteration(steps.Context, steps.System.levels(), convergence, what)
     {
     }
 
@@ -70,11 +65,10 @@ private:
 
   bool resume(Step& rotations, Step& positions, bool& rotated);
   void beginPositions(Step& rotations, Step& positions);
-  double sharedPass(PositionStep& step);
   double positionScale() const;
 
+  StreamedSystem& System;
   SolveContext& Context;
-  Hierarchy& Levels;
   RestShape& Rest;
   Weights EdgeWeights;
   int Cycles; // per step; 0: by the tolerance
@@ -97,18 +91,15 @@ public:
 
   // The parts, for further deformations.
 
-  SolveContext& context() { return *this->Context; }
-  Hierarchy& levels() { return this->Levels; }
+  StreamedSystem& system() { return this->System; }
   RestShape& rest() { return this->Rest; }
   DeformationSteps& steps() { return this->Steps; }
 
 private:
   static void ask(MeshSource& mesh, Handles& handles);
 
-  CompiledOperators Operators;
   Weights EdgeWeights;
-  std::unique_ptr<SolveContext> Context;
-  Hierarchy Levels;
+  StreamedSystem System;
   RestShape Rest;
   DeformationSteps Steps;
 };

@@ -5,7 +5,7 @@
 #include "Solver/Jobs/Deformation/PositionStep.h"
 #include "Solver/Jobs/Deformation/RotationProblem.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
-#include "Solver/Multigrid/Engine/Pass.h"
+#include "Solver/Multigrid/Engine/GivenSystem.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -35,14 +35,44 @@ DeformOptions interactiveOptions(DeformOptions options)
 template <class F>
 void forHeld(RestShape& rest, F&& f)
 {
-  for (const RestBlock& block : rest.blocks())
+  for (std::int64_t number = 0; number < rest.blocks(); ++number)
   {
+    const RestBlock block = rest.block(number);
     for (RestBlock::Held& held : block.held())
     {
       f(held, static_cast<std::size_t>(block.first() + held.node));
     }
   }
 }
+
+/** The rotations and scales of held vertices; all others begin with 0. */
+class HeldRotations final : public SystemValues
+{
+public:
+  explicit HeldRotations(const VertexHandles& handles)
+    : Handles(handles)
+  {
+  }
+
+  void give(const SystemRecord& /*record*/, std::int64_t first, std::int64_t count,
+    std::span<const double> /*before*/, std::span<double> x, std::span<double> b) override
+  {
+    std::ranges::fill(x, 0.0);
+    for (std::int64_t k = 0; k < count; ++k)
+    {
+      const auto i = static_cast<std::size_t>(first + k);
+      double* value = b.data() + RotationProblem::Columns * k;
+      if (this->Handles.mask[i] != 0)
+      {
+        std::copy_n(this->Handles.rotation.data() + 3 * i, 3, value);
+        value[3] = this->Handles.logScale[i];
+      }
+    }
+  }
+
+private:
+  const VertexHandles& Handles;
+};
 
 } // namespace
 
@@ -62,12 +92,13 @@ std::int64_t InteractiveDeformation::vertices() const
 
 const Report& InteractiveDeformation::report() const
 {
-  return this->Engine->context().report;
+  return this->Engine->system().context().report;
 }
 
 bool InteractiveDeformation::update(const VertexHandles& handles)
 {
-  SolveContext& context = this->Engine->context();
+  StreamedSystem& system = this->Engine->system();
+  SolveContext& context = system.context();
   checkSize(handles, context.report.vertices);
   if (!this->holdsTheSame(handles))
   {
@@ -82,9 +113,11 @@ bool InteractiveDeformation::update(const VertexHandles& handles)
   this->Engine->steps().solve(
     [&]
     {
-      const FirstResidual first = this->findRightSide();
-      Pass(context, this->Engine->levels()).begin();
-      return first;
+      HeldRotations rotations(handles);
+      GivenSystem next(context, this->Engine->rest().system(), system.window(), rotations,
+        RotationProblem::Columns);
+      system.restart(next);
+      return next.residual(system.levels()).alone();
     });
   this->Broken = false;
   return true;
@@ -97,7 +130,7 @@ void InteractiveDeformation::read(std::int64_t first, std::int64_t count, std::s
     throw Error("the last update was broken off: there are no positions until one succeeds");
   }
   checkVertexRange(first, count, values.size() / PositionStep::Columns, this->report().vertices);
-  this->Engine->levels().window().readX(first, count, values.data());
+  this->Engine->system().window().readX(first, count, values.data());
   this->Engine->rest().addStart(first, count, values.data());
 }
 
@@ -111,49 +144,17 @@ bool InteractiveDeformation::holdsTheSame(const VertexHandles& handles) const
   return same;
 }
 
-/** Sets the targets of the held vertices, and their rotations and scales; all others begin with 0.
- */
+/** Sets the targets of the held vertices. */
 void InteractiveDeformation::take(const VertexHandles& handles)
 {
-  LevelWindow<double>& window = this->Engine->levels().window();
-  window.abandon();
-  window.setColumns(RotationProblem::Columns);
-  std::ranges::fill(window.x().range(0, window.nodes()), 0.0);
-  std::int64_t& shared = this->Engine->context().report.shared;
+  std::int64_t& shared = this->Engine->system().context().report.shared;
   shared = 0;
   forHeld(this->Engine->rest(),
     [&](RestBlock::Held& held, std::size_t i)
     {
       std::copy_n(handles.target.data() + 3 * i, 3, held.target.data());
-      double* x = window.x().at(static_cast<std::int64_t>(i));
-      std::copy_n(handles.rotation.data() + 3 * i, 3, x);
-      x[3] = handles.logScale[i];
       shared += handles.mask[i] > 1 ? 1 : 0;
     });
-}
-
-/** Computes the right-hand side of the rotations as Assembly does. With initial values of 0, b - A
- * x is b at free vertices. */
-FirstResidual InteractiveDeformation::findRightSide()
-{
-  LevelWindow<double>& window = this->Engine->levels().window();
-  std::ranges::copy(window.x().range(0, window.nodes()), window.b().at(0));
-  constexpr std::size_t Columns = RotationProblem::Columns;
-  ColumnResiduals residual{ std::vector<double>(Columns), std::vector<double>(Columns), {} };
-  const auto addSquares = [&](std::int64_t i)
-  {
-    for (std::size_t c = 0; c < Columns; ++c)
-    {
-      residual.squares[c] += window.b().at(i)[c] * window.b().at(i)[c];
-    }
-  };
-  for (const RestBlock& block : this->Engine->rest().blocks())
-  {
-    addKnownValues(block.first(), std::span<const RestBlock::Link>(block.links()),
-      RotationProblem::Columns, window.x(), window.b(), addSquares);
-  }
-  residual.rounding = residual.squares;
-  return residual.alone();
 }
 
 } // namespace smg

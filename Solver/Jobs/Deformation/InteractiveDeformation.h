@@ -11,7 +11,6 @@ namespace smg
 {
 
 class DeformationEngine;
-struct FirstResidual;
 
 /**
  * A deformation in memory with fast updates, for dragging handles: hierarchy and factor are kept as
@@ -44,7 +43,6 @@ public:
 private:
   bool holdsTheSame(const VertexHandles& handles) const;
   void take(const VertexHandles& handles);
-  FirstResidual findRightSide();
 
   std::unique_ptr<DeformationEngine> Engine;
   bool Broken = false; ///< an update ended with an exception

@@ -6,14 +6,14 @@
 #include <algorithm>
 #include <cmath>
 
-// The right-hand side of the second problem of a deformation, as a stage of the pass that the two
-// problems share. Vertices go through three states, in stream order: loaded; turned, when the
-// upward part of the last V-cycle of the rotations has finished them, so that their frame s R - I
-// is known; and done, when all neighbours are turned as well and the right-hand side has been
-// computed. Only then may the downward part of the positions use them.
+// The second system of a deformation begins in the pass that finishes the first one. Vertices go
+// through three states, in stream order: loaded; turned, when the upward part of the last V-cycle
+// of the rotations has finished them, so that their frame s R - I is known; and done, when all
+// neighbours are turned as well and the right-hand side has been computed. Only then may the
+// downward part of the positions use them.
 //
 // A row needs the frames and positions at rest of its neighbours, including held ones, which the
-// rows of the matrix omit: RestBlock lists these edges, and how far the neighbours of a group of
+// rows of the matrix omit: SystemRecord lists these edges, and how far the neighbours of a group of
 // rows reach. The terms of a row are summed in the order of its entries and rows follow in
 // ascending order, so that the sums have the same bits for any schedule. The memory is the window
 // between loading and releasing; the time is linear in the number of edges.
@@ -50,6 +50,18 @@ struct EdgeSums
 
 } // namespace
 
+void PositionStep::startPass()
+{
+  this->Rest.startPass();
+  this->Rest.system().startPass();
+}
+
+void PositionStep::endPass()
+{
+  this->Rest.endPass();
+  this->Rest.system().endPass();
+}
+
 /** Loads the positions at rest, and the displacements of held vertices; the downward part starts
  * with displacements of 0. */
 void PositionStep::load()
@@ -57,8 +69,8 @@ void PositionStep::load()
   const std::int64_t loaded = this->Window.loaded();
   while (this->Points.end() < loaded)
   {
-    this->Blocks.push_back(this->Rest.next());
-    const RestBlock& block = this->Blocks.back();
+    this->Records.push_back(this->Rest.system().next());
+    const RestBlock block = this->Rest.next();
     const std::int64_t first = block.first();
     this->Points.extendRaw(block.end());
     this->Motions.extendRaw(block.end());
@@ -79,7 +91,7 @@ void PositionStep::load()
 
 /** Turns all vertices below `final`, then completes groups of rows as far as their neighbours are
  * turned. */
-void PositionStep::advance(std::int64_t final)
+std::int64_t PositionStep::fill(std::int64_t final)
 {
   this->turn(final);
   // Group by group of the rows, as the other stages do; a group needs its farthest neighbour to be
@@ -87,19 +99,20 @@ void PositionStep::advance(std::int64_t final)
   while (this->Done < this->Points.end())
   {
     const auto number =
-      static_cast<std::size_t>((this->Done - this->Blocks.front().first()) / RowBlock::Nodes);
+      static_cast<std::size_t>((this->Done - this->Records.front().first()) / RowBlock::Nodes);
     // Blocks have a fixed number of vertices, so that the one of Done is found by division.
-    const RestBlock& block = this->Blocks[number];
-    const RestBlock::Header& h = block.header();
+    const SystemRecord& record = this->Records[number];
+    const SystemRecord::Header& h = record.header();
     const std::int64_t group = (this->Done - h.first) / RowBlock::Group;
     if (h.reach[static_cast<std::size_t>(group)] >= this->Turned)
     {
       break;
     }
     this->closeGroup(
-      block, h.first + std::min<std::int64_t>(h.nodes, (group + 1) * RowBlock::Group));
+      record, h.first + std::min<std::int64_t>(h.nodes, (group + 1) * RowBlock::Group));
   }
   this->release();
+  return this->Done;
 }
 
 /** Computes the frames of vertices below `end`, whose rotation and scale are final. */
@@ -114,10 +127,10 @@ void PositionStep::turn(std::int64_t end)
 }
 
 /** Processes the rows from Done to `end`, which are in one block. */
-void PositionStep::closeGroup(const RestBlock& block, std::int64_t end)
+void PositionStep::closeGroup(const SystemRecord& record, std::int64_t end)
 {
   // Links are listed by ascending node and consumed in this order.
-  if (this->Done == block.first())
+  if (this->Done == record.first())
   {
     this->NextLink = 0;
   }
@@ -130,7 +143,7 @@ void PositionStep::closeGroup(const RestBlock& block, std::int64_t end)
         {
           for (std::int64_t k = nodes.begin; k < nodes.end; ++k)
           {
-            this->closeRow(block, h.first + k, RowView(h, arrays, k));
+            this->closeRow(record, h.first + k, RowView(h, arrays, k));
           }
         });
     });
@@ -139,10 +152,10 @@ void PositionStep::closeGroup(const RestBlock& block, std::int64_t end)
 
 /** Computes right-hand side and first residual of vertex i, which has this row. */
 template <class Row>
-void PositionStep::closeRow(const RestBlock& block, std::int64_t i, const Row& row)
+void PositionStep::closeRow(const SystemRecord& record, std::int64_t i, const Row& row)
 {
-  const std::int64_t k = i - block.first();
-  const std::span<const RestBlock::Link> links = block.links();
+  const std::int64_t k = i - record.first();
+  const std::span<const KnownLink> links = record.links();
   if (row.size() == 0 && (this->NextLink == links.size() || links[this->NextLink].node != k))
   {
     // Held, or without a weighted cell: u stays 0.
@@ -171,12 +184,12 @@ void PositionStep::closeRow(const RestBlock& block, std::int64_t i, const Row& r
   }
   for (; this->NextLink < links.size() && links[this->NextLink].node == k; ++this->NextLink)
   {
-    const RestBlock::Link& link = links[this->NextLink];
+    const KnownLink& link = links[this->NextLink];
     const std::int64_t j = i + link.delta;
     sums.add(link.weight, point, this->Points.at(j), this->Frames[j]);
     for (int c = 0; c < Columns; ++c)
     {
-      held[c] += static_cast<double>(link.weight) * this->Motions.at(j)[c];
+      held[c] += link.weight * this->Motions.at(j)[c];
     }
   }
 
@@ -195,12 +208,12 @@ void PositionStep::closeRow(const RestBlock& block, std::int64_t i, const Row& r
   }
 }
 
-/** Releases blocks that no row from Done on needs. */
+/** Releases vertices that no row from Done on needs. */
 void PositionStep::release()
 {
-  while (!this->Blocks.empty())
+  while (!this->Records.empty())
   {
-    const RestBlock::Header& h = this->Blocks.front().header();
+    const SystemRecord::Header& h = this->Records.front().header();
     const auto group = static_cast<std::size_t>((h.nodes - 1) / RowBlock::Group);
     const std::int64_t end = h.first + h.nodes;
     if (end > this->Done || h.reach[group] >= this->Done)
@@ -210,7 +223,7 @@ void PositionStep::release()
     this->Points.release(end);
     this->Motions.release(end);
     this->Frames.release(end);
-    this->Blocks.pop_front();
+    this->Records.pop_front();
   }
 }
 

@@ -17,10 +17,10 @@
 namespace smg
 {
 
-void RestShape::useScratch(const ScratchFolder& folder, IoStatistics& statistics)
+void RestShape::useScratch(const ScratchFolder& folder, ScratchTraffic& traffic)
 {
-  this->Scratch.emplace(folder, "rest", statistics);
-  this->Scratch->startPass(true);
+  this->Records.useScratch(folder, traffic);
+  this->System.useScratch(folder, traffic);
 }
 
 void RestShape::hold(std::int64_t i, const double* target)
@@ -32,13 +32,6 @@ void RestShape::begin()
 {
   this->Waiting.insert(this->Waiting.end(), this->Coming.begin(), this->Coming.end());
   this->Coming.clear();
-}
-
-/** An edge to a held neighbour; called before close() of its vertex, which is the next one of the
- * open block. */
-void RestShape::link(std::int32_t delta, double weight)
-{
-  this->Links.push_back({ this->Open.nodes, delta, static_cast<float>(weight) });
 }
 
 /** Adds a vertex to the open block, with its target if it is held. */
@@ -53,11 +46,9 @@ void RestShape::close(const double* point, std::int64_t reach)
     this->Waiting.pop_front();
   }
   this->Points.insert(this->Points.end(), point, point + 3);
-  // `reach` does not decrease, so the last vertex of a group determines the reach of the group.
-  this->Open.reach[static_cast<std::size_t>(this->Open.nodes / RowBlock::Group)] = reach;
+  this->System.close(point, reach);
   ++this->Open.nodes;
   ++this->Vertices;
-  // These blocks coincide with the blocks of the rows.
   if (this->Open.nodes == RowBlock::Nodes)
   {
     this->pack();
@@ -80,45 +71,32 @@ void RestShape::finish()
   {
     this->pack();
   }
-  if (this->Scratch)
-  {
-    this->Scratch->endPass();
-  }
+  this->Records.finish();
+  this->System.finish();
 }
 
 /** Completes the open block. */
 void RestShape::pack()
 {
   this->Open.held = static_cast<std::int32_t>(this->Held.size());
-  this->Open.links = static_cast<std::int32_t>(this->Links.size());
-  Buffer buffer(this->Owner, RestBlock::bytes(this->Open));
-  // The bytes stay where they are when the buffer moves into the block.
-  const std::span<const std::byte> bytes = buffer.bytes();
-  RestBlock block(std::move(buffer));
+  Buffer buffer(this->Records.pool(), RestBlock::bytes(this->Open));
+  const RestBlock block{ VertexRecords::Record(buffer.bytes()) };
   block.header() = this->Open;
   std::copy(this->Points.begin(), this->Points.end(), block.points().begin());
   std::copy(this->Held.begin(), this->Held.end(), block.held().begin());
-  std::copy(this->Links.begin(), this->Links.end(), block.links().begin());
-  if (this->Scratch)
-  {
-    this->Scratch->append(bytes);
-  }
-  else
-  {
-    this->Blocks.push_back(std::move(block));
-  }
+  this->Records.append(std::move(buffer));
   this->Open = {};
   this->Open.first = this->Vertices;
   this->Points.clear();
   this->Held.clear();
-  this->Links.clear();
 }
 
 void RestShape::save(StateWriter& state)
 {
   state.part("rest");
   state(this->Vertices, this->Low, this->High);
-  this->Scratch->save(state);
+  this->Records.save(state);
+  this->System.save(state);
 }
 
 void RestShape::load(StateReader& state)
@@ -126,7 +104,7 @@ void RestShape::load(StateReader& state)
   state.part("rest");
   state(this->Vertices, this->Low, this->High);
   state.require(this->Vertices > 0);
-  this->Scratch->load(state, (this->Vertices - 1) / RowBlock::Nodes + 1,
+  this->Records.load(state, this->blocks(),
     [&](std::int64_t index, std::span<const std::byte> bytes)
     {
       RestBlock::Header h;
@@ -135,44 +113,16 @@ void RestShape::load(StateReader& state)
       const std::int64_t first = index * RowBlock::Nodes;
       const std::int64_t nodes = std::min(RowBlock::Nodes, this->Vertices - first);
       // What is read from a checkpoint is checked before it is used as sizes and indices.
-      state.require(h.first == first && h.nodes == nodes && h.held >= 0 && h.links >= 0 &&
-                    RestBlock::bytes(h) == bytes.size());
+      state.require(
+        h.first == first && h.nodes == nodes && h.held >= 0 && RestBlock::bytes(h) == bytes.size());
     });
+  this->System.load(state);
 }
 
 double RestShape::extent() const
 {
   return std::hypot(
     this->High[0] - this->Low[0], this->High[1] - this->Low[1], this->High[2] - this->Low[2]);
-}
-
-void RestShape::startPass()
-{
-  this->NextBlock = 0;
-  if (this->Scratch)
-  {
-    this->Scratch->startPass(false);
-  }
-}
-
-RestBlock RestShape::next()
-{
-  if (!this->Scratch)
-  {
-    // In memory, a pass looks at the blocks and leaves them.
-    return this->Blocks[this->NextBlock++].view();
-  }
-  Buffer buffer(this->Owner, this->Scratch->nextBytes());
-  this->Scratch->read(buffer.bytes());
-  return RestBlock(std::move(buffer));
-}
-
-void RestShape::endPass()
-{
-  if (this->Scratch)
-  {
-    this->Scratch->endPass();
-  }
 }
 
 /** A range is read from front to back, so that one block in memory is enough. */
@@ -201,23 +151,12 @@ void RestShape::addStart(std::int64_t first, std::int64_t count, double* values)
  * targets. */
 void RestShape::cacheStart(std::int64_t number)
 {
-  const auto take = [this](const RestBlock& block)
+  const RestBlock block(this->Records.at(number));
+  this->CachedPoints.assign(block.points().begin(), block.points().end());
+  for (const RestBlock::Held& held : block.held())
   {
-    this->CachedPoints.assign(block.points().begin(), block.points().end());
-    for (const RestBlock::Held& held : block.held())
-    {
-      std::copy(held.target.begin(), held.target.end(), this->CachedPoints.begin() + 3 * held.node);
-    }
-  };
-  if (!this->Scratch)
-  {
-    take(this->Blocks[static_cast<std::size_t>(number)]);
-    // Not cached: in memory it costs little, and an interactive deformation changes the targets.
-    return;
+    std::copy(held.target.begin(), held.target.end(), this->CachedPoints.begin() + 3 * held.node);
   }
-  Buffer buffer(this->Owner, this->Scratch->bytes(number));
-  this->Scratch->read(number, buffer.bytes());
-  take(RestBlock(std::move(buffer)));
   this->Cached = number;
 }
 

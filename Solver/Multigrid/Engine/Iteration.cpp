@@ -25,8 +25,8 @@ void Iteration::run(bool leaveLast)
     }
     // The peak of this pass alone, should it be the one that measures.
     this->Context.pool.restartPeak();
-    pass.run(
-      this->StoppingRule.norm(), { {}, {}, this->History ? &*this->History : nullptr, measures });
+    pass.run(this->StoppingRule.norm(),
+      { .history = this->History ? &*this->History : nullptr, .inOneChain = measures });
     if (measures)
     {
       this->Context.plainPassPeak = this->Context.pool.recentPeak();

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Multigrid/Engine/LinearEngine.h"
 
-#include "Solver/Multigrid/Engine/AssemblyReport.h"
-#include "Solver/Multigrid/Engine/FirstPass.h"
+#include "Solver/Core/SimdPack.h"
+#include "Solver/Multigrid/Engine/GivenSystem.h"
 #include "Solver/Multigrid/Engine/Iteration.h"
-#include "Solver/Multigrid/Engine/Pass.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -38,11 +37,10 @@ void removeRepetitions(std::vector<std::string>& sentences)
 } // namespace
 
 LinearEngine::LinearEngine(CompiledOperators operators, int columns, const SolveOptions& options)
-  : Operators(std::move(operators))
-  , Columns(columns)
-  , Context(columns, options)
-  , Levels(this->Context, columns, this->Operators.relaxation)
-  , Given(this->Context.pool)
+  : Columns(columns)
+  , System(std::move(operators), columns, options)
+  , Context(this->System.context())
+  , Records(this->Context.pool, KeptRowSums::None)
 {
 }
 
@@ -52,7 +50,8 @@ void LinearEngine::build(MeshSource& mesh, Problem& problem)
   this->Context.progress.beginFirst();
   this->Context.mayMeasureFlow = true;
   this->VectorSize = problem.vectorSize();
-  FirstPass(this->Context, this->Levels, this->Operators).run(mesh, problem, &this->Given);
+  this->System.build(mesh, problem, &this->Records);
+  this->Records.finish();
   this->Context.finishReport();
   this->Context.progress.finish();
 }
@@ -82,25 +81,38 @@ void LinearEngine::forGroups(std::span<const double> in, std::span<const double>
   }
 }
 
+namespace
+{
+
+/** Throws Error if a number of the columns [first, first + count) of `all` is not finite. */
+void checkFinite(std::span<const double> values, std::size_t first, std::size_t count,
+  std::size_t all, const char* what)
+{
+  for (std::size_t i = 0; i * all < values.size(); ++i)
+  {
+    for (const double value : values.subspan(i * all + first, count))
+    {
+      if (!std::isfinite(value))
+      {
+        throw Error(std::string(what) + " has a number that is not finite at vertex " +
+                    std::to_string(i) + " of the stream");
+      }
+    }
+  }
+}
+
+} // namespace
+
 /** Copies columns to a vector of the finest level; those that a group lacks are zero. */
 void LinearEngine::load(
   std::span<const double> values, const Group& group, const char* what, Ring<double>& to)
 {
+  checkFinite(values, group.first, group.count, group.all, what);
   double* lanes = to.range(0, this->vertices()).data();
   const double* of = values.data() + group.first;
   for (std::int64_t i = 0; i < this->vertices(); ++i, of += group.all, lanes += to.lanes())
   {
-    double finite = 0.0;
-    for (std::size_t k = 0; k < group.count; ++k)
-    {
-      lanes[k] = of[k];
-      finite += 0.0 * of[k];
-    }
-    if (finite != 0.0)
-    {
-      throw Error(std::string(what) + " has a number that is not finite at vertex " +
-                  std::to_string(i) + " of the stream");
-    }
+    std::copy_n(of, group.count, lanes);
     std::fill(lanes + group.count, lanes + to.lanes(), 0.0);
   }
 }
@@ -129,18 +141,16 @@ void LinearEngine::solve(std::span<const double> b, std::span<double> x, const S
   r.converged = true;
   r.relative_to = BestConstant;
   std::vector<double> removed;
-  LevelWindow<double>& window = this->Levels.window();
   this->forGroups(b, x,
     [&](const Group& group)
     {
-      this->load(b, group, "the right-hand side", window.b());
-      this->load(x, group, "the initial guess", window.x());
-      this->Given.setKnown(window);
+      checkFinite(b, group.first, group.count, group.all, "the right-hand side");
+      checkFinite(x, group.first, group.count, group.all, "the initial guess");
       const auto share = [&](std::size_t columns)
       { return static_cast<double>(columns) / static_cast<double>(group.all); };
       this->Context.progress.begin(
         stopping, share(group.first), share(group.first + group.count), false);
-      this->solve(group, stopping);
+      this->solve(group, b, x, stopping);
       std::vector<double> taken = std::exchange(r.removed_source, {});
       taken.resize(group.count);
       removed.insert(removed.end(), taken.begin(), taken.end());
@@ -162,44 +172,69 @@ void LinearEngine::solve(std::span<const double> b, std::span<double> x, const S
   this->Context.progress.finish();
 }
 
-/** Solves for b and from x of the finest level. */
-void LinearEngine::solve(const Group& group, const Stopping& stopping)
+namespace
+{
+
+/** Columns of vectors that a program gives; the columns that are missing are zero. */
+class GivenVectors final : public SystemValues
+{
+public:
+  /** `right`, `initial`: from the first number of the first column on, `all` numbers per vertex. */
+  GivenVectors(const double* right, const double* initial, std::size_t all, std::size_t count)
+    : Right(right)
+    , Initial(initial)
+    , All(all)
+    , Count(count)
+  {
+  }
+
+  void give(const SystemRecord& /*record*/, std::int64_t first, std::int64_t count,
+    std::span<const double> /*before*/, std::span<double> x, std::span<double> b) override
+  {
+    const std::size_t columns = b.size() / static_cast<std::size_t>(count);
+    std::ranges::fill(x, 0.0);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
+    {
+      const std::size_t from = (static_cast<std::size_t>(first) + k) * this->All;
+      std::copy_n(this->Initial + from, this->Count, x.data() + k * columns);
+      std::copy_n(this->Right + from, this->Count, b.data() + k * columns);
+    }
+  }
+
+private:
+  const double *Right, *Initial;
+  std::size_t All, Count;
+};
+
+} // namespace
+
+void LinearEngine::solve(
+  const Group& group, std::span<const double> b, std::span<double> x, const Stopping& stopping)
 {
   Convergence convergence(stopping, {});
-  Iteration iteration(this->Context, this->Levels, convergence);
-  const ColumnResiduals columns = this->begin();
+  Iteration iteration(this->Context, this->System.levels(), convergence);
+  GivenVectors vectors(b.data() + group.first, x.data() + group.first, group.all, group.count);
+  GivenSystem next(this->Context, this->Records, this->System.window(), vectors, this->Columns);
+  this->System.restart(next);
+  const ColumnResiduals columns = next.residual(this->System.levels());
   this->Context.scales = ColumnScales(columns.references, this->VectorSize);
   convergence = Convergence(stopping, this->Context.scales.of(columns));
   // As for a first pass: see PoissonSolver.
-  convergence.begin(this->Levels.residualNorm(), !this->Context.components.shiftsRightSide());
+  convergence.begin(
+    this->System.levels().residualNorm(), !this->Context.components.shiftsRightSide());
   this->Context.endPass(convergence.initial());
   iteration.run(false);
   Report& r = this->Context.report;
   const std::string name = group.name();
   convergence.addStep(r, name, group.count < group.all ? name + ": " : std::string());
   r.converged = r.converged && convergence.converged();
-  this->Context.free.fix(this->Levels.window(), r);
-}
-
-/** Does what a first pass does after assembly. Returns the residual of the initial values. */
-ColumnResiduals LinearEngine::begin()
-{
-  LevelWindow<double>& window = this->Levels.window();
-  Components& components = this->Context.components;
-  this->Given.addKnown(window);
-  components.restartCounts();
-  const InitialResidual residual = this->Given.residual(window, components, this->Context.labels);
-  components.settle();
-  checkSquares(residual.termSquares(), residual.anyTerm());
-  Pass(this->Context, this->Levels).begin();
-  FirstPass::project(this->Context, this->Levels);
-  return FirstPass::residualOf(residual, components);
+  this->Context.free.fix(this->System.window(), r);
 }
 
 /** Stores the solution, with what the equations leave open. */
 void LinearEngine::read(const Group& group, std::span<double> x)
 {
-  const Ring<double>& solved = this->Levels.window().x();
+  const Ring<double>& solved = this->System.window().x();
   std::vector<double> values(static_cast<std::size_t>(this->Columns));
   if (this->Context.components.floatingComponents() == 0)
   {
@@ -218,7 +253,7 @@ void LinearEngine::read(const Group& group, std::span<double> x)
 
 void LinearEngine::precondition(std::span<const double> r, std::span<double> z)
 {
-  LevelWindow<double>& window = this->Levels.window();
+  LevelWindow<double>& window = this->System.window();
   this->forGroups(r, z,
     [&](const Group& group)
     {
@@ -228,23 +263,36 @@ void LinearEngine::precondition(std::span<const double> r, std::span<double> z)
       {
         largest = std::max(largest, std::fabs(value));
       }
-      this->Levels.runSymmetric(largest);
+      this->System.levels().runSymmetric(largest);
       this->store(window.x(), 1.0, group, z);
     });
+}
+
+/** Adds w_ij x_j of the neighbours with rows of the identity to b. */
+void LinearEngine::addKnown(LevelWindow<double>& window)
+{
+  this->Records.startPass();
+  for (std::int64_t i = 0; i < window.nodes();)
+  {
+    const SystemRecord record = this->Records.next();
+    addKnownValues(record.first(), record.links(), window.columns(), window.x(), window.b());
+    i = record.end();
+  }
+  this->Records.endPass();
 }
 
 /** With b = 0 the residual is -A x; the neighbours whose rows are those of the identity are part of
  * b. */
 void LinearEngine::multiply(std::span<const double> x, std::span<double> y)
 {
-  LevelWindow<double>& window = this->Levels.window();
+  LevelWindow<double>& window = this->System.window();
   this->forGroups(x, y,
     [&](const Group& group)
     {
       this->load(x, group, "the vector", window.x());
       std::ranges::fill(window.b().range(0, window.nodes()), 0.0);
-      this->Given.addKnown(window);
-      this->Levels.finest().residualAll(window.b().at(0));
+      this->addKnown(window);
+      this->System.levels().finest().residualAll(window.b().at(0));
       this->store(window.b(), -1.0, group, y);
     });
 }

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Multigrid/Engine/CompiledOperators.h"
 #include "Solver/Multigrid/Engine/Convergence.h"
-#include "Solver/Multigrid/Engine/Hierarchy.h"
-#include "Solver/Multigrid/Engine/RightSides.h"
-#include "Solver/Multigrid/Engine/SolveContext.h"
+#include "Solver/Multigrid/Engine/StreamedSystem.h"
+#include "Solver/Multigrid/Engine/SystemRecords.h"
 #include "smg/Solve.h"
 
 #include <cstdint>
@@ -34,9 +32,9 @@ public:
   void precondition(std::span<const double> r, std::span<double> z);
   void multiply(std::span<const double> x, std::span<double> y);
 
-  std::int64_t vertices() const { return this->Context.report.vertices; }
+  std::int64_t vertices() const { return this->System.context().report.vertices; }
   int columns() const { return this->Columns; }
-  const Report& report() const { return this->Context.report; }
+  const Report& report() const { return this->System.context().report; }
 
 private:
   /** The columns of given vectors that are treated together. */
@@ -52,16 +50,16 @@ private:
   void forGroups(std::span<const double> in, std::span<const double> out, F&& f);
   void load(std::span<const double> values, const Group& group, const char* what, Ring<double>& to);
   void store(const Ring<double>& from, double factor, const Group& group, std::span<double> values);
-  void solve(const Group& group, const Stopping& stopping);
-  ColumnResiduals begin();
+  void solve(
+    const Group& group, std::span<const double> b, std::span<double> x, const Stopping& stopping);
   void read(const Group& group, std::span<double> x);
+  void addKnown(LevelWindow<double>& window);
 
-  CompiledOperators Operators;
   int Columns;
   int VectorSize = 1;
-  SolveContext Context;
-  Hierarchy Levels;
-  RightSides Given;
+  StreamedSystem System;
+  SolveContext& Context; // of the system
+  SystemRecords Records;
 };
 
 } // namespace smg

@@ -37,9 +37,9 @@ try
     end = std::min(nodes, end + steps.nodes);
     // Rings grow here only, when no task runs.
     finest.load(end - 1);
-    if (options.loaded)
+    if (options.next)
     {
-      options.loaded();
+      options.next->load();
     }
     // The cursors at the beginning of the step: also the tasks that write nodes use them.
     finest.publish();
@@ -74,10 +74,11 @@ Schedule Pass::scheduleOf(const Options& options, int chains)
   auto& finest = this->Levels.finest();
   Schedule schedule(this->Context.trace());
   addUpward(finest, schedule);
-  if (options.beforeDown)
+  if (NextSystem* next = options.next)
   {
-    schedule.add({ "begin the next problem", 0, static_cast<double>(this->Levels.window().nodes()),
-                   options.beforeDown },
+    schedule.add({ "begin the next system", 0, static_cast<double>(this->Levels.window().nodes()),
+                   [next, &finest](bool follows)
+                   { finest.setRenewed(next->fill(finest.finishedUp(next->taken(), follows))); } },
       [&finest] { return std::int64_t(finest.cursors().renewed); });
   }
   addDownward(finest, schedule);

@@ -3,10 +3,9 @@
 
 #include "Solver/Multigrid/Cycle/IterateHistory.h"
 #include "Solver/Multigrid/Engine/Hierarchy.h"
+#include "Solver/Multigrid/Engine/NextSystem.h"
 #include "Solver/Multigrid/Engine/SolveContext.h"
 #include "Solver/Multigrid/Schedule/Schedule.h"
-
-#include <functional>
 
 namespace smg
 {
@@ -23,13 +22,10 @@ namespace smg
 class Pass
 {
 public:
-  /** Optional further actions of a pass. */
   struct Options
   {
-    /** Called in each step after the finest level was loaded. */
-    std::function<void()> loaded;
-    /** A further stage between the upward and the downward part of the finest level. */
-    std::function<void(bool follows)> beforeDown;
+    /** The system whose first V-cycle the pass begins; null: the present one. */
+    NextSystem* next = nullptr;
     /** The history of the iterates, if the pass is accelerated. */
     IterateHistory* history = nullptr;
     /** Whether the pass has one chain of stages, which takes the least memory. */
@@ -46,8 +42,8 @@ public:
    * approximate size of the residuals in it. */
   void run(double scale, const Options& options);
 
-  /** In core: begins the first V-cycle of a problem whose right-hand side and initial values are
-   * in the window of the finest level. */
+  /** In core: begins the first V-cycle of a system whose right-hand side and initial values are in
+   * the window of the finest level. */
   void begin();
 
 private:

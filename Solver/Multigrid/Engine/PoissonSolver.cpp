@@ -3,9 +3,7 @@
 
 #include "Solver/Files/ScratchAccount.h"
 #include "Solver/Multigrid/Engine/Convergence.h"
-#include "Solver/Multigrid/Engine/FirstPass.h"
 #include "Solver/Multigrid/Engine/Iteration.h"
-#include "Solver/Multigrid/Engine/StreamedSolution.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -17,7 +15,7 @@ namespace smg
 
 std::unique_ptr<Solution> PoissonSolver::solve(MeshSource& mesh, Problem& problem)
 {
-  SolveContext& context = *this->Context;
+  SolveContext& context = this->System.context();
   context.beginReport();
   std::optional<ErrorBalance> balance;
   if (context.options.tolerance == SolveOptions::AutomaticTolerance)
@@ -33,11 +31,12 @@ std::unique_ptr<Solution> PoissonSolver::solve(MeshSource& mesh, Problem& proble
     { balance ? ErrorBalance::UsualResidual : stopping.tolerance, stopping.maxCycles }, 0.0, 1.0,
     true);
   Convergence convergence(stopping, {});
-  Iteration iteration(context, this->Levels, convergence, "", balance ? &*balance : nullptr);
+  Iteration iteration(
+    context, this->System.levels(), convergence, "", balance ? &*balance : nullptr);
   // What a checkpoint has of this solve, in the order in which it is saved and restored.
   const auto exchange = [&](auto& state)
   {
-    state(this->Levels, context.scales, convergence, iteration);
+    state(this->System.levels(), context.scales, convergence, iteration);
     if (balance)
     {
       state(*context.energy, *balance);
@@ -45,8 +44,7 @@ std::unique_ptr<Solution> PoissonSolver::solve(MeshSource& mesh, Problem& proble
   };
   if (!context.resume({ { "kind of task", "solve" } }, { exchange, exchange }))
   {
-    const ColumnResiduals first =
-      FirstPass(context, this->Levels, this->Operators).run(mesh, problem);
+    const ColumnResiduals first = this->System.build(mesh, problem);
     if (!problem.beginsAtRest())
     {
       context.scales = ColumnScales(first.references, problem.vectorSize());
@@ -63,19 +61,18 @@ std::unique_ptr<Solution> PoissonSolver::correct(
 {
   // At least this share of the residual is to go, whose digits a double has.
   constexpr double Most = 0.1, Least = 1e-12;
-  SolveContext& context = *this->Context;
+  SolveContext& context = this->System.context();
   context.beginReport();
   context.corrected = &solution;
   context.couplings = problem.couplings();
   context.scales = scales;
   context.progress.begin({ Least, context.options.maxCycles }, 0.0, 1.0, true);
-  FirstResidual first =
-    scales.of(FirstPass(context, this->Levels, this->Operators).run(mesh, problem));
+  FirstResidual first = scales.of(this->System.build(mesh, problem));
   first.reference = first.norm; // it is measured against itself
   const Stopping stopping{ first.norm > 0.0 ? std::clamp(goal / first.norm, Least, Most) : Most,
     context.options.maxCycles };
   Convergence convergence(stopping, first);
-  Iteration iteration(context, this->Levels, convergence);
+  Iteration iteration(context, this->System.levels(), convergence);
   this->begin(convergence, stopping, first);
   iteration.run(false);
   return this->finish(convergence, problem, nullptr);
@@ -87,10 +84,10 @@ std::unique_ptr<Solution> PoissonSolver::correct(
 void PoissonSolver::begin(
   Convergence& convergence, const Stopping& stopping, const FirstResidual& first)
 {
-  SolveContext& context = *this->Context;
+  SolveContext& context = this->System.context();
   convergence = Convergence(stopping, first);
   convergence.begin(
-    this->Levels.residualNorm(), !context.components.shiftsRightSide() && !context.flow);
+    this->System.levels().residualNorm(), !context.components.shiftsRightSide() && !context.flow);
   context.endPass(convergence.initial());
 }
 
@@ -98,7 +95,7 @@ void PoissonSolver::begin(
 std::unique_ptr<Solution> PoissonSolver::finish(
   const Convergence& convergence, Problem& problem, const ErrorBalance* balance)
 {
-  SolveContext& context = *this->Context;
+  SolveContext& context = this->System.context();
   this->Norms = { convergence.reference(), convergence.norm(), convergence.rounding(),
     context.flow ? context.flowNorm() : 0.0, context.scales };
   Report& r = context.report;
@@ -111,11 +108,10 @@ std::unique_ptr<Solution> PoissonSolver::finish(
   {
     balance->report(r);
   }
-  context.free.fix(this->Levels.window(), problem, r);
+  context.free.fix(this->System.window(), problem, r);
   r.seconds.solve = context.seconds() - r.seconds.build;
   context.finishReport();
-  auto solution =
-    std::make_unique<StreamedSolution>(std::move(this->Context), this->Levels.takeWindow());
+  auto solution = this->System.takeSolution();
   context.progress.finish();
   this->Done = context.progress.done();
   this->Used = context.pool.used();
@@ -127,23 +123,24 @@ std::unique_ptr<Solution> PoissonSolver::finish(
  * pass. */
 EnergySquares PoissonSolver::discretisation(Problem& problem)
 {
-  const std::unique_ptr<MeshSource> mesh = this->Context->options.again();
-  this->Context->free.prepare();
+  SolveContext& context = this->System.context();
+  const std::unique_ptr<MeshSource> mesh = context.options.again();
+  context.free.prepare();
   try
   {
-    DiscretisationError error(this->Context->pool, mesh->info(), problem,
-      [this](std::int64_t first, std::int64_t count, std::span<double> values)
-      { this->Context->readCompleted(this->Levels.window(), first, count, values); });
+    DiscretisationError error(context.pool, mesh->info(), problem,
+      [this, &context](std::int64_t first, std::int64_t count, std::span<double> values)
+      { context.readCompleted(this->System.window(), first, count, values); });
     for (MeshBlock block; mesh->next(block);)
     {
       error.add(block);
-      this->Context->progress.update(1.0); // may cancel
+      context.progress.update(1.0); // may cancel
     }
     return error.finish();
   }
   catch (const MemoryLimitError& error)
   {
-    throw this->Context->explained(error);
+    throw context.explained(error);
   }
 }
 

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Multigrid/Engine/CompiledOperators.h"
 #include "Solver/Multigrid/Engine/Convergence.h"
 #include "Solver/Multigrid/Engine/Corrections.h"
 #include "Solver/Multigrid/Engine/ErrorBalance.h"
-#include "Solver/Multigrid/Engine/Hierarchy.h"
-#include "Solver/Multigrid/Engine/SolveContext.h"
+#include "Solver/Multigrid/Engine/StreamedSystem.h"
 #include "smg/Solve.h"
 
 #include <memory>
@@ -15,17 +13,13 @@
 namespace smg
 {
 
-/** Solves one problem: the first pass, then a pass for each V-cycle. The parts are the ones that
- * a deformation composes differently: SolveContext, Hierarchy, FirstPass, Iteration,
- * StreamedSolution. */
+/** Solves one problem: the first pass, then a pass for each V-cycle. */
 class PoissonSolver
 {
 public:
   /** Prepares for a problem of `columns` columns; nothing is read yet. */
   PoissonSolver(CompiledOperators operators, int columns, const SolveOptions& options)
-    : Operators(std::move(operators))
-    , Context(std::make_unique<SolveContext>(columns, options))
-    , Levels(*this->Context, columns, this->Operators.relaxation)
+    : System(std::move(operators), columns, options)
   {
   }
 
@@ -39,7 +33,7 @@ public:
   std::unique_ptr<Solution> correct(MeshSource& mesh, Problem& problem, Solution& solution,
     double goal, const ColumnScales& scales);
 
-  SolveContext& context() { return *this->Context; }
+  SolveContext& context() { return this->System.context(); }
 
   // Afterwards:
 
@@ -56,9 +50,7 @@ private:
   std::unique_ptr<Solution> finish(
     const Convergence& convergence, Problem& problem, const ErrorBalance* balance);
 
-  CompiledOperators Operators;
-  std::unique_ptr<SolveContext> Context;
-  Hierarchy Levels;
+  StreamedSystem System;
   SolveNorms Norms;
   double Done = 1.0;
   std::int64_t Used = 0, ScratchUsed = 0;
