@@ -185,8 +185,8 @@ Costs deformCosts(const StreamInfo& info, const DeformOptions& options)
   return costs;
 }
 
-/** Each step is a solve, with edges to be kept two, beside readings for normals and the swept
- * volume. */
+/** Of positions each step is a solve, with edges to be kept two, beside readings for normals and
+ * the swept volume. The steps of a column have one hierarchy. */
 Costs smoothCosts(const StreamInfo& info, int components, const Smoothing& options)
 {
   const bool movesPoints = options.column.empty();
@@ -194,21 +194,30 @@ Costs smoothCosts(const StreamInfo& info, int components, const Smoothing& optio
   const int solves = options.steps * (options.keepEdges ? 2 : 1);
   // The winding is also found where that of the mesh cannot be computed with, which is not known
   // yet.
-  const int readings = options.steps * ((options.keepEdges ? 1 : 0) + (keepsVolume ? 2 : 1)) +
-                       (options.orient && movesPoints ? 1 : 0);
+  const int readings = movesPoints
+                         ? options.steps * ((options.keepEdges ? 1 : 0) + (keepsVolume ? 2 : 1)) +
+                             (options.orient ? 1 : 0)
+                         : 0;
   // The equations of a step couple vertices only within about the size of the details, which makes
   // them easier.
   constexpr double Ease = 0.65;
-  const int cycles = expectedCycles(ratesOf(info.cellType), options, Ease);
+  const Rates& rates = ratesOf(info.cellType);
+  const int cycles = expectedCycles(rates, options, Ease);
   const Costs step = costsOfCycles(info, components, Weights::Cotangent, options, cycles);
+  const auto vertices = static_cast<double>(info.vertices);
+  const double further =
+    movesPoints ? step.seconds : vertices * cycles * passSeconds(rates, components);
   Costs costs = step;
-  costs.passes = 1 + solves * step.passes + readings;
-  costs.seconds = solves * step.seconds + (1 + readings) * static_cast<double>(info.vertices) *
-                                            ratesOf(info.cellType).readSeconds;
+  costs.passes = 1 + step.passes + (solves - 1) * (movesPoints ? step.passes : cycles) + readings;
+  costs.seconds =
+    step.seconds + (solves - 1) * further + (1 + readings) * vertices * rates.readSeconds;
   // Vertex files: the values, the next values, the presmoothed surface, and normals.
   const int files = 2 + (options.keepEdges ? 1 : 0) + (options.keepEdges || keepsVolume ? 1 : 0);
   const std::int64_t own = bytesOf(info, files * components * double(sizeof(double)));
-  (options.inCore ? costs.memory : costs.scratch) += own;
+  // What further steps of a column need beside the rows: masses.
+  constexpr double RecordBytes = 9;
+  const std::int64_t records = movesPoints || solves == 1 ? 0 : bytesOf(info, RecordBytes);
+  (options.inCore ? costs.memory : costs.scratch) += own + records;
   costs.kept = options.inCore ? 0 : bytesOf(info, components * double(sizeof(double)));
   return costs;
 }

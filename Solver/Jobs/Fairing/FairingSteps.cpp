@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Core/ReportFields.h"
+#include "Solver/Jobs/Fairing/FairingSeries.h"
 #include "Solver/Jobs/Fairing/MeshFairing.h"
 #include "Solver/Jobs/Fairing/MeshMeasures.h"
 #include "Solver/Memory/Pool.h"
@@ -16,10 +17,6 @@
 
 namespace smg
 {
-
-/** Adds the report of a step to the report of all steps. `name` is the name of the step in
- * Report::steps. */
-void addStep(Report& total, const Report& step, const std::string& name);
 
 // The steps of MeshFairing. In each, the boundary curves move first and become prescribed values of
 // the surface; then the surface is solved for; then it moves along its normals so that its volume
@@ -44,9 +41,9 @@ void MeshFairing::step(int k, Part part)
   {
     this->Curves->step(this->Time);
   }
-  // In the first step, and for columns, the masses are those of the mesh as it is given. Later
-  // steps of positions take them from the current surface (Kazhdan, Solomon and Ben-Chen 2012).
-  const VertexFile* surface = k > 0 && this->movesPoints() ? &this->Result->values : nullptr;
+  // In the first step the masses are those of the mesh as it is given. Later steps take them from
+  // the current surface (Kazhdan, Solomon and Ben-Chen 2012).
+  const VertexFile* surface = k > 0 ? &this->Result->values : nullptr;
   const std::string name = "step " + std::to_string(k + 1);
   if (this->Options.keepEdges)
   {
@@ -65,14 +62,24 @@ void MeshFairing::step(int k, Part part)
     FairingProblem problem = this->problem(this->Time, surface);
     this->solveStep(problem, name, part.of(0.0, 0.8), this->Next);
   }
-  if (this->movesPoints())
-  {
-    this->keepVolume(part.of(0.9, 1.0));
-  }
-  else
-  {
-    std::swap(this->Result->values, this->Next);
-  }
+  this->keepVolume(part.of(0.9, 1.0));
+}
+
+/** All steps of a column, whose matrix stays the same. */
+void MeshFairing::smoothColumn(Part part)
+{
+  FairingProblem first = this->problem(this->Time, nullptr);
+  const std::int64_t own = this->Job.pool.used();
+  const auto source =
+    this->surface().source(this->Columns.vertexColumns(), this->Columns.cellColumns());
+  const std::unique_ptr<Solution> solution = this->Job.solveBeside(own, part,
+    [&](const SolveOptions& solving)
+    {
+      return FairingSeries(source->info().cellType, first.columns(), this->Options.steps, solving)
+        .run(*source, first);
+    });
+  this->take(*solution, solution->report().steps, own, this->Next);
+  std::swap(this->Result->values, this->Next);
 }
 
 /** Presmooths the surface by one step of the whole size, whatever the number of steps, and finds
@@ -110,18 +117,30 @@ void MeshFairing::solveStep(
   const auto source =
     this->surface().source(this->Columns.vertexColumns(), this->Columns.cellColumns());
   const std::unique_ptr<Solution> solution = this->Job.solve(*source, problem, part, own);
+  const Report& r = solution->report();
+  this->take(*solution, { { name, r.cycles, r.residual(), r.converged } }, own, to);
+}
+
+/** Stores the solution of these steps in `to`, and adds its report; `own`: bytes in use beside it.
+ */
+void MeshFairing::take(
+  Solution& solution, const std::vector<Report::Step>& steps, std::int64_t own, VertexFile& to)
+{
   // The solution goes to the file of the next values before its scratch files are removed with it.
   to.restart();
-  for (std::int64_t first = 0; first < solution->vertices(); first += ChunkVertices)
+  for (std::int64_t first = 0; first < solution.vertices(); first += ChunkVertices)
   {
-    const std::int64_t count = std::min(ChunkVertices, solution->vertices() - first);
-    this->Values.resize(static_cast<std::size_t>(count * solution->columns()));
-    solution->read(first, count, this->Values);
+    const std::int64_t count = std::min(ChunkVertices, solution.vertices() - first);
+    this->Values.resize(static_cast<std::size_t>(count * solution.columns()));
+    solution.read(first, count, this->Values);
     to.append(this->Values);
   }
-  Report report = solution->report();
+  Report report = solution.report();
   report.pool_bytes_peak += own;
-  addStep(this->Job.report, report, name);
+  Report& total = this->Job.report;
+  total.converged = total.converged || total.steps.empty();
+  total.steps.insert(total.steps.end(), steps.begin(), steps.end());
+  addFields(total, report);
 }
 
 /** Finds the normals at the vertices of the surface with these positions. Those of held vertices
@@ -257,13 +276,6 @@ std::unique_ptr<Solution> MeshFairing::finish()
   }
   this->Job.finishReport();
   return std::move(this->Result);
-}
-
-void addStep(Report& total, const Report& step, const std::string& name)
-{
-  total.converged = total.converged || total.steps.empty();
-  total.steps.push_back({ name, step.cycles, step.residual(), step.converged });
-  addFields(total, step);
 }
 
 } // namespace smg

@@ -106,7 +106,11 @@ std::unique_ptr<Solution> MeshFairing::run()
   requireMemory(this->Mesh.info(), this->Result->columns(), Weights::Cotangent, this->Options);
   this->survey({ 0.0, surveyed });
   const int steps = this->Result->vertices() > 0 ? this->Options.steps : 0;
-  for (int k = 0; k < steps; ++k)
+  if (steps > 0 && !this->movesPoints())
+  {
+    this->smoothColumn({ surveyed, 1.0 });
+  }
+  for (int k = 0; k < steps && this->movesPoints(); ++k)
   {
     const double all = steps;
     this->step(k, Part{ surveyed, 1.0 }.of(k / all, (k + 1) / all));

@@ -69,9 +69,12 @@ private:
   void holdCurves(Part part);
 
   void step(int k, Part part);
+  void smoothColumn(Part part);
   void findEdges(int k, Part part);
   FairingProblem problem(double t, const VertexFile* surface);
   void solveStep(FairingProblem& problem, const std::string& name, Part part, VertexFile& to);
+  void take(
+    Solution& solution, const std::vector<Report::Step>& steps, std::int64_t own, VertexFile& to);
   void findNormals(const VertexFile& positions, bool ofHeld, Part part);
   void keepVolume(Part part);
   double sweptVolume(Part part, double& distance);

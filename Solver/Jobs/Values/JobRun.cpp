@@ -26,23 +26,6 @@ std::int64_t JobRun::memoryBeside(std::int64_t own) const
   return std::max<std::int64_t>(this->options.memoryLimit - own, 1);
 }
 
-std::unique_ptr<Solution> JobRun::solve(
-  MeshSource& mesh, Problem& problem, ProgressPart part, std::int64_t own) const
-{
-  SolveOptions solving = this->options;
-  solving.memoryLimit = this->memoryBeside(own);
-  solving.progress = part.of(this->options.progress);
-  try
-  {
-    return smg::solve(mesh, problem, solving);
-  }
-  catch (const MemoryLimitError& error)
-  {
-    // The message has to state the limit that the user knows.
-    throw error.inside(own, this->options.memoryLimit);
-  }
-}
-
 void JobRun::endProgress() const
 {
   Progress(this->options.progress).update(1.0);

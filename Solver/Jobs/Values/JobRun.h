@@ -35,9 +35,30 @@ struct JobRun
   }
   /** What is left of the memory limit beside `own` bytes. */
   std::int64_t memoryBeside(std::int64_t own) const;
-  /** Solves within the memory beside `own` bytes; errors state the limit of the job. */
+  /** Returns solve(options), with options for a solve in the memory beside `own` bytes; errors
+   * state the limit of the job. */
+  template <class Solve>
+  auto solveBeside(std::int64_t own, ProgressPart part, const Solve& solve) const
+  {
+    SolveOptions solving = this->options;
+    solving.memoryLimit = this->memoryBeside(own);
+    solving.progress = part.of(this->options.progress);
+    try
+    {
+      return solve(solving);
+    }
+    catch (const MemoryLimitError& error)
+    {
+      // The message has to state the limit that the user knows.
+      throw error.inside(own, this->options.memoryLimit);
+    }
+  }
   std::unique_ptr<Solution> solve(
-    MeshSource& mesh, Problem& problem, ProgressPart part, std::int64_t own) const;
+    MeshSource& mesh, Problem& problem, ProgressPart part, std::int64_t own) const
+  {
+    return this->solveBeside(
+      own, part, [&](const SolveOptions& solving) { return smg::solve(mesh, problem, solving); });
+  }
   /** To be called at the end, which may cancel like any other. Throws Cancelled. */
   void endProgress() const;
   /** Adds memory, scratch files and times to the report. */

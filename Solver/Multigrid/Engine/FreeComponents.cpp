@@ -42,9 +42,19 @@ void noteFreeComponents(Report& report)
   report.notes.push_back(note);
 }
 
+/** Takes what is to be subtracted from the values. */
+void FreeComponents::setShifts(std::vector<double> shifts)
+{
+  this->MeanShifts = std::move(shifts);
+  for (std::size_t k = 0; k < std::min(this->MeanShifts.size(), this->Excess.size()); ++k)
+  {
+    this->MeanShifts[k] += this->Excess[k];
+  }
+}
+
 void FreeComponents::prepare()
 {
-  this->MeanShifts = this->Parts.constantShifts();
+  this->setShifts(this->Parts.constantShifts());
 }
 
 void FreeComponents::complete(std::int64_t first, std::int64_t count, std::span<double> values)

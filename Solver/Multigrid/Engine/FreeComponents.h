@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace smg
@@ -85,6 +86,9 @@ public:
   /** Prepares complete() for the iterate of a pass: components that are held loosely get their
    * constant, nothing else changes. */
   void prepare();
+  /** The right-hand side was made with values that were too large by these means, label-major, in
+   * components that are held loosely; and so is its solution. */
+  void setExcess(std::vector<double> means) { this->Excess = std::move(means); }
 
 private:
   static constexpr auto Block = static_cast<std::int64_t>(ComponentLabels::Block);
@@ -98,11 +102,13 @@ private:
     std::span<const double> ofComponents, std::int64_t block, std::span<double> values, F&& factor);
   template <class State>
   void fixMeans(State& level, Report& report);
+  void setShifts(std::vector<double> shifts);
 
   Components& Parts;
   ComponentLabels& Labels;
   int Columns;
   std::vector<double> MeanShifts; ///< of floating components; empty if there is none
+  std::vector<double> Excess;     ///< see setExcess(); empty: none
   UndeterminedValues Undetermined = UndeterminedValues::Stay;
 };
 
@@ -183,7 +189,7 @@ void FreeComponents::fixMeans(State& level, Report& report)
         }
       });
   }
-  this->MeanShifts = this->Parts.meanShifts(sums);
+  this->setShifts(this->Parts.meanShifts(sums));
   if (report.free_components > 0)
   {
     noteFreeComponents(report);

@@ -151,7 +151,7 @@ void GivenSystem::addRows(const Arrays& rows, const BlockPart<double>& part)
           continue;
         }
         this->addRow(h, arrays, part, k);
-        if (&this->Window.up() != &this->Window.down())
+        if (this->hasBefore())
         {
           this->addResidualBefore(h, arrays, k);
         }
@@ -189,7 +189,40 @@ void GivenSystem::addRow(
   if (floats)
   {
     components.count(label, b, x, residual.data(), mass);
+    if (this->hasBefore())
+    {
+      this->addMeanBefore(components.root(label), h.first + k, std::max(-mass, 0.0));
+    }
   }
+}
+
+/** Adds the values of a vertex of a component that may be held loosely, and then has a weight. */
+void GivenSystem::addMeanBefore(std::int32_t root, std::int64_t vertex, double weight)
+{
+  const auto label = static_cast<std::size_t>(root);
+  const auto columns = static_cast<std::size_t>(this->Columns);
+  if (this->WeightsBefore.empty())
+  {
+    this->WeightsBefore.resize(static_cast<std::size_t>(this->Context.components.labels()));
+    this->SumsBefore.resize(this->WeightsBefore.size() * columns);
+  }
+  this->WeightsBefore[label] += weight;
+  for (std::size_t k = 0; k < columns; ++k)
+  {
+    this->SumsBefore[label * columns + k] += weight * this->Window.up().x.at(vertex)[k];
+  }
+}
+
+std::vector<double> GivenSystem::meansBefore() const
+{
+  std::vector<double> means = this->SumsBefore;
+  const auto columns = static_cast<std::size_t>(this->Columns);
+  for (std::size_t k = 0; k < means.size(); ++k)
+  {
+    const double weight = this->WeightsBefore[k / columns];
+    means[k] = weight > 0.0 ? means[k] / weight : 0.0;
+  }
+  return means;
 }
 
 /** The final residual of the system before, whose rows pass by here for the last time. */

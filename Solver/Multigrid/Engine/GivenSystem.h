@@ -64,8 +64,13 @@ public:
   ColumnResiduals residual(Hierarchy& hierarchy);
   /** ||b - A x|| of the final values of the system before, with these scales of columns. */
   double normBefore(const ColumnScales& scales) const;
+  /** The means of these final values in components that are held loosely, by which V-cycles do not
+   * determine them: per column and label, label-major; empty if there is no such component. */
+  std::vector<double> meansBefore() const;
 
 private:
+  /** Whether the values before are not given up. */
+  bool hasBefore() const { return this->Window.isSeparate(); }
   void take(std::int64_t end);
   void closeRows(std::int64_t end);
   template <class Arrays>
@@ -73,6 +78,7 @@ private:
   template <class Arrays>
   void addRow(
     const RowBlock::Header& h, const Arrays& arrays, const BlockPart<double>& part, std::int64_t k);
+  void addMeanBefore(std::int32_t root, std::int64_t vertex, double weight);
   template <class Arrays>
   void addResidualBefore(const RowBlock::Header& h, const Arrays& arrays, std::int64_t k);
   const SystemRecord& recordOf(std::int64_t vertex) const;
@@ -89,7 +95,8 @@ private:
   std::size_t NextLink = 0, NextKnown = 0, Run = 0;
   InitialResidual First;
   std::vector<double> SquaresBefore, OfRow;
-  std::vector<double> Before, X, B; // of the vertices that are taken
+  std::vector<double> SumsBefore, WeightsBefore; // of components that are held loosely
+  std::vector<double> Before, X, B;              // of the vertices that are taken
 };
 
 } // namespace smg
