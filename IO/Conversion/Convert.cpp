@@ -13,6 +13,7 @@
 #include "IO/Import/Polygons.h"
 #include "IO/Import/RawMesh.h"
 #include "IO/Import/RawMeshBuilder.h"
+#include "IO/Import/UnmatchedFaces.h"
 #include "IO/Import/VertexGroups.h"
 #include "IO/Import/Weld.h"
 #include "IO/Mesh/Columns.h"
@@ -184,6 +185,33 @@ void noteLayout(const LayOutCounts& counts, const StreamLayout& layout, Conversi
   }
 }
 
+/** Merges points within this distance; returns how many. Throws Error if that are all of them. */
+std::int64_t weld(Conversion& conversion, RawMesh& mesh, double distance)
+{
+  Workspace& space = conversion.workspace();
+  VertexFilter joined(space, mesh.vertices);
+  const std::int64_t merged = weldPoints(mesh, distance, space, &joined);
+  if (merged > 0 && merged == mesh.vertices - 1 && distance > 0.0)
+  {
+    throw Error(conversion.in().string() +
+                ": all points are so near one another that they would be merged with one. Is the "
+                "distance (option --weld) in the unit of the mesh?");
+  }
+  if (merged > 0 && mesh.cellType == CellType::Tetrahedron)
+  {
+    if (const std::int64_t faces = unmatchedFaces(mesh, joined, space); faces > 0)
+    {
+      conversion.report().notes.push_back(
+        "The welded bodies do not match: " + counted(faces, "triangle", "triangles") +
+        " of their surfaces at merged points lie upon others with other corners, and stay on the "
+        "boundary. There the bodies are connected at the merged points alone, so that too little "
+        "flows between them: mesh them as one (BooleanFragments or Coherence in Gmsh), or with "
+        "the same triangles on both sides.");
+    }
+  }
+  return merged;
+}
+
 void importInput(Conversion& conversion, RawMesh& mesh)
 {
   Workspace& space = conversion.workspace();
@@ -193,14 +221,8 @@ void importInput(Conversion& conversion, RawMesh& mesh)
   checkScratchRoom(conversion.scratch(), scratchBytes(infoOf(mesh), conversion.options()),
     space.traffic().bytesWritten);
   cutPolygons(mesh, space);
-  const std::optional<double>& weld = conversion.options().weld;
-  const std::int64_t merged = weld ? weldPoints(mesh, *weld, space) : 0;
-  if (merged > 0 && merged == mesh.vertices - 1 && *weld > 0.0)
-  {
-    throw Error(conversion.in().string() +
-                ": all points are so near one another that they would be merged with one. Is the "
-                "distance (option --weld) in the unit of the mesh?");
-  }
+  const std::optional<double>& distance = conversion.options().weld;
+  const std::int64_t merged = distance ? weld(conversion, mesh, *distance) : 0;
   // Merged points no longer belong to a cell.
   report.isolated_vertices -= merged;
   addVertexGroups(mesh, space);

@@ -150,7 +150,7 @@ void checkWeldDistance(double tolerance)
   }
 }
 
-std::int64_t weldPoints(RawMesh& mesh, double tolerance, Workspace& workspace)
+std::int64_t weldPoints(RawMesh& mesh, double tolerance, Workspace& workspace, VertexFilter* joined)
 {
   checkWeldDistance(tolerance);
   const std::int64_t memory = workspace.available() / 3;
@@ -166,8 +166,15 @@ std::int64_t weldPoints(RawMesh& mesh, double tolerance, Workspace& workspace)
     for (Point point{}; points.next(point);)
     {
       const std::uint32_t id = near.findOrKeep(point);
-      merged += id != point.id ? 1 : 0;
       kept.put(point.id, id);
+      if (id != point.id)
+      {
+        ++merged;
+        if (joined)
+        {
+          joined->add(id);
+        }
+      }
     }
   }
   if (merged > 0)
