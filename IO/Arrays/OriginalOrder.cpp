@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Arrays/OriginalOrder.h"
 
+#include "IO/External/ExternalSort.h"
+#include "IO/External/Workspace.h"
 #include "IO/Files/PartialProgress.h"
 #include "IO/Formats/Vsm/WriteVsm.h"
 #include "IO/Import/Weld.h"
@@ -86,20 +88,31 @@ bool keepsCells(const StoredMesh& mesh, const ConversionReport& conversion)
 std::int64_t countElements(
   const StoredMesh& mesh, const ConversionReport* conversion, const ProgressFunction& progress)
 {
-  if (!hasCellNumbers(mesh) || (conversion && keepsCells(mesh, *conversion)))
+  // What was left out, or is in groups of facets, has numbers that no cell has.
+  const bool areWhole = conversion && !conversion->keeps_numbers &&
+                        conversion->triangulated_polygons == 0 && conversion->split_cells == 0;
+  if (areWhole || !hasCellNumbers(mesh))
   {
     return mesh.info().cells;
   }
-  std::int64_t largest = -1;
+  constexpr std::int64_t Memory = std::int64_t(64) << 20;
+  Workspace workspace({}, Memory);
+  ExternalSort<std::int64_t> numbers(workspace, Memory / 2);
   visitBlocks(*mesh.source({}, { OriginalCellIdName }), progress, 0.0, 1.0,
-    [&largest](const MeshBlock& block)
+    [&numbers](const MeshBlock& block)
     {
       for (const std::int64_t number : block.cellColumns[0].as<std::int64_t>())
       {
-        largest = std::max(largest, number);
+        numbers.put(number);
       }
     });
-  return largest + 1;
+  numbers.sort();
+  std::int64_t count = 0;
+  for (std::int64_t last = 0, next = 0; numbers.next(next); last = next)
+  {
+    count += count == 0 || next != last ? 1 : 0;
+  }
+  return count;
 }
 
 OriginalOrder::OriginalOrder(const StoredMesh& mesh, const ConversionReport* conversion,

@@ -58,8 +58,9 @@ struct OriginalRows
 };
 
 /**
- * The number of cells of the file or arrays of which the cells of a mesh are parts, as
- * OriginalCellId says: one more than the largest. Without this column it is that of the cells.
+ * The number of cells of the file or arrays of which the cells of a mesh are parts: of different
+ * numbers in OriginalCellId. Elements that are no cells of the mesh, as those of groups of facets,
+ * do not count. Without this column it is the number of the cells. Works out of core.
  * @param conversion that has made the mesh; null: not known. The column is read unless it tells.
  * @throws Error if the file cannot be read; Cancelled
  */

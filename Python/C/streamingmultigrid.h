@@ -154,7 +154,8 @@ extern "C"
   SMG_C_EXPORT smg_status smg_counts(const smg_mesh* mesh, int64_t* vertices, int64_t* cells);
 
   /* The number of cells of the file or arrays, as polygons or hexahedra, of which the cells of the
-   * mesh are parts, by the column OriginalCellId: one more than the largest of these. */
+   * mesh are parts: of different numbers in the column OriginalCellId. Elements that are no cells
+   * of the mesh, as those of groups of facets, do not count. */
   SMG_C_EXPORT smg_status smg_elements(
     const smg_mesh* mesh, smg_progress progress, void* user, int64_t* elements);
 

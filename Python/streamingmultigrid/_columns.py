@@ -145,6 +145,8 @@ class Columns:
                 )
                 if cells in (None, of)
             ]
+            if cells is not False and self.mesh.n_elements < self.mesh.n_cells:
+                wanted.append("%d elements" % self.mesh.n_elements)
             raise InputError(
                 "%s: the shape of the array is %s; it must have a row for each of the %s."
                 % (what, array.shape, " or ".join(wanted))

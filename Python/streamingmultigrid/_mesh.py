@@ -247,15 +247,17 @@ class Mesh:
     def elements(self) -> np.ndarray:
         """Of each cell the number of the cell of the file that it is a part of, (m,) int64, from 0.
 
-        Polygons are read as triangles; hexahedra, prisms and pyramids as tetrahedra. Where there are
+        Polygons are read as triangles; hexahedra, prisms and pyramids as tetrahedra. Elements of the file that are no cells
+        of the mesh, as the faces of groups, do not count (the column `OriginalCellId` counts all). Where there are
         fewer elements than cells, arrays that are given may have a row for each of them instead. Means of a result by
         element: ``np.bincount(mesh.elements, values) / np.bincount(mesh.elements)``.
         """
         if self._elements is None:
-            has_numbers = "OriginalCellId" in self.columns["cells"]
-            self._elements = (
-                self.read("OriginalCellId", cells=True) if has_numbers else np.arange(self.n_cells)
-            )
+            if "OriginalCellId" in self.columns["cells"]:
+                numbers = self.read("OriginalCellId", cells=True)
+                self._elements = np.unique(numbers, return_inverse=True)[1].reshape(-1).astype(np.int64, copy=False)
+            else:
+                self._elements = np.arange(self.n_cells)
             self._elements.setflags(write=False)
         return self._elements
 

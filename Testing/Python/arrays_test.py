@@ -424,7 +424,7 @@ class ElementsTest(unittest.TestCase):
     """Of cells that are read in parts, an array has a row for each part, or for each cell."""
 
     def files(self):
-        """Hexahedra, and quadrilaterals: (name, number of elements)."""
+        """Hexahedra, also with named faces, and quadrilaterals: (name, number of elements)."""
         n = 3
         grid = np.stack(np.meshgrid(*[np.arange(n + 1.0)] * 3, indexing="ij"), -1).reshape(-1, 3)
         number = np.arange(len(grid)).reshape((n + 1,) * 3)
@@ -439,12 +439,26 @@ class ElementsTest(unittest.TestCase):
                 np.savetxt(file, np.insert(cells, 0, cells.shape[1], axis=1), fmt="%d")
                 file.write("CELL_TYPES %d\n" % len(cells) + "%d\n" % kind * len(cells))
             yield name, len(cells)
+        # As Gmsh writes them: the faces come before the cells.
+        faces = number[0][tuple(np.meshgrid(range(n), range(n), indexing="ij"))].ravel()
+        quads = np.stack([faces, faces + n + 1, faces + n + 2, faces + 1], 1)
+        with open("named.msh", "w", encoding="utf-8") as file:
+            file.write("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"low\"\n3 2 \"body\"\n")
+            file.write("$EndPhysicalNames\n$Nodes\n%d\n" % len(grid))
+            np.savetxt(file, np.insert(grid, 0, np.arange(len(grid)) + 1, axis=1), fmt="%g")
+            file.write("$EndNodes\n$Elements\n%d\n" % (len(quads) + len(hexahedra)))
+            elements = [(3, 1, *corners) for corners in quads + 1] + [(5, 2, *corners) for corners in hexahedra + 1]
+            for tag, (kind, group, *corners) in enumerate(elements, 1):
+                file.write(" ".join(map(str, (tag, kind, 2, group, 1, *corners))) + "\n")
+            file.write("$EndElements\n")
+        yield "named.msh", len(hexahedra)
 
     def test_arrays_by_element(self):
         for name, count in self.files():
             with self.subTest(name):
                 mesh = smg.open(name)
                 self.assertGreater(mesh.n_cells, count)
+                self.assertEqual(mesh.n_elements, count)
                 np.testing.assert_array_equal(np.unique(mesh.elements), np.arange(count))
                 values = np.linspace(1, 2, count)
                 parts = values[mesh.elements]
@@ -461,7 +475,7 @@ class ElementsTest(unittest.TestCase):
                     for mask in (values > 1.5, parts > 1.5)
                 )
                 self.assertEqual(bits(one), bits(two))
-                with self.assertRaisesRegex(smg.InputError, "row for each"):
+                with self.assertRaisesRegex(smg.InputError, "row for each of the .* %d elements" % count):
                     mesh["k"] = values[1:]
 
     def test_a_tensor_or_a_row_for_each_element(self):
