@@ -27,6 +27,19 @@ constexpr std::array Keys{ "dirichlet", "flux", "robin", "source", "conductivity
   "soft" };
 static_assert(Keys.size() == vtkMeshCondition::SOFT + 1);
 
+/** Adds the array of the region of the condition, which views show; returns its name. */
+std::string showRegion(vtkPointSet& output, const smg::HeldPoints& held)
+{
+  std::string name = smg::addMask(output);
+  vtkDataArray& mask = *output.GetPointData()->GetArray(name.c_str());
+  for (std::size_t i = 0; i < held.by.size(); ++i)
+  {
+    mask.SetTuple1(static_cast<vtkIdType>(i), held.by[i] >= 0 ? 1 : 0);
+  }
+  output.GetPointData()->SetActiveScalars(name.c_str());
+  return name;
+}
+
 } // namespace
 
 struct vtkMeshCondition::Internals
@@ -141,6 +154,10 @@ void vtkMeshCondition::Deliver(vtkPointSet& piece, const smg::HeldPoints& held, 
   else if (this->Region == GROUP)
   {
     condition.group = this->RegionGroup();
+    if (!held.by.empty())
+    {
+      showRegion(output, held);
+    }
   }
   else if (this->Region == BOUNDARY)
   {
@@ -148,14 +165,7 @@ void vtkMeshCondition::Deliver(vtkPointSet& piece, const smg::HeldPoints& held, 
   }
   else if (!this->IsEvaluatedBySolver())
   {
-    condition.mask = smg::addMask(output);
-    vtkDataArray& mask = *output.GetPointData()->GetArray(condition.mask.c_str());
-    for (std::size_t i = 0; i < held.by.size(); ++i)
-    {
-      mask.SetTuple1(static_cast<vtkIdType>(i), held.by[i] >= 0 ? 1 : 0);
-    }
-    // Views show the region of the condition.
-    output.GetPointData()->SetActiveScalars(condition.mask.c_str());
+    condition.mask = showRegion(output, held);
   }
   smg::addCondition(output, condition.text());
 }

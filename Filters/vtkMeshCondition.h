@@ -15,9 +15,9 @@
  * The output is the input with the condition in the field array `MeshConditions`, in the JSON of
  * `smg solve --problem`, and the point array `Condition1`, `Condition2` ... (unsigned char, by the
  * position in the chain), which is 1 in the region and the active scalars of the output. The solver
- * itself evaluates BOUNDARY, MASK, TAG, and a source, a conductivity or a screening EVERYWHERE:
- * then this array is absent, and NumberOfHeldPoints is 0. vtkStreamingPoisson removes the
- * conditions and their arrays.
+ * itself evaluates BOUNDARY, MASK, TAG, GROUP, and a source, a conductivity or a screening
+ * EVERYWHERE: then this array is absent, and NumberOfHeldPoints is 0; that of GROUP is there where
+ * the mesh is not streamed, for views. vtkStreamingPoisson removes the conditions and their arrays.
  *
  * @sa vtkRegionFilter vtkStreamingPoisson
  */

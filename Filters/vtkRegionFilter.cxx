@@ -128,17 +128,25 @@ struct vtkRegionFilter::Internals
            this->Self.Region == POINTS;
   }
 
-  /** Updates the input to the requested piece and determines its held points. */
+  /** Whether the held points of the requested piece are sought: those of a group that the solver
+   * evaluates are for views alone. */
+  bool seeks(const smg::PieceRequest& request) const
+  {
+    return !this->Self.IsEvaluatedBySolver() || (this->Self.Region == GROUP && !request.IsStreamed);
+  }
+
+  /** Updates the input to the requested piece and determines its held points, if they are sought.
+   */
   vtkPointSet& fetchPiece(smg::PieceInput& input, const smg::PieceRequest& request,
     vtkInformationVector** inputVector, smg::HeldPoints& held)
   {
-    const bool isEvaluatedBySolver = this->Self.IsEvaluatedBySolver();
-    if (!isEvaluatedBySolver && this->Self.Region != FUNCTION && this->Self.Region != EVERYWHERE)
+    const bool seeks = this->seeks(request);
+    if (seeks && this->Self.Region != FUNCTION && this->Self.Region != EVERYWHERE)
     {
       return this->search(input, request, inputVector, held);
     }
     auto* piece = vtkPointSet::SafeDownCast(request.update(input));
-    if (!isEvaluatedBySolver)
+    if (seeks)
     {
       held = this->Self.Region == EVERYWHERE
                ? smg::heldEverywhere(*piece)
@@ -238,6 +246,7 @@ struct vtkRegionFilter::Internals
   vtkNew<vtkStringArray> GroupNames;
 
   smg::HeldCount Count;
+  bool HasSought = false;        ///< in the last request
   std::int64_t PointsBehind = 0; ///< of a preview, whose points were counted
   std::string Outcome;
   smg::WarnOnce FarPoints, NoPoint, Unused, Replaced;
@@ -386,10 +395,10 @@ const char* vtkRegionFilter::GetOutcome()
   const std::string& error = this->Internal->Failures.error();
   std::string& text = this->Internal->Outcome;
   const bool isLast = this->Internal->Failures.isLast(*this);
-  text = !isLast                       ? "Not applied yet, or a filter before this one failed."
-         : !error.empty()              ? "Failed: " + error
-         : this->IsEvaluatedBySolver() ? "The region is sought when the mesh is solved on."
-                                       : this->Internal->countText(this->NumberOfHeldPoints);
+  text = !isLast                      ? "Not applied yet, or a filter before this one failed."
+         : !error.empty()             ? "Failed: " + error
+         : !this->Internal->HasSought ? "The region is sought when the mesh is solved on."
+                                      : this->Internal->countText(this->NumberOfHeldPoints);
   return text.c_str();
 }
 
@@ -459,7 +468,7 @@ int vtkRegionFilter::RequestData(
       smg::PieceInput input(*this, 0);
       smg::HeldPoints held;
       vtkPointSet& piece = this->Internal->fetchPiece(input, request, inputVector, held);
-      const bool holds = !this->IsEvaluatedBySolver();
+      const bool holds = this->Internal->HasSought = this->Internal->seeks(request);
       if (holds)
       {
         this->Internal->count(piece, held, request);

@@ -193,7 +193,8 @@ protected:
    * if there is none. */
   virtual std::string UnusedProperty();
 
-  /** Whether the data are assigned without held points; `held` is then empty. Default: false. */
+  /** Whether the data are assigned without held points; `held` is then empty, unless they are those
+   * of a group that is shown. Default: false. */
   virtual bool IsEvaluatedBySolver() { return false; }
 
   /** Fills the output with the piece and the data of its held points. Throws smg::Error. */

@@ -2,12 +2,14 @@
 #include "Filters/Regions/MarkedRegion.h"
 
 #include "Filters/Regions/RegionPoints.h"
+#include "IO/Vtk/GroupData.h"
 #include "IO/Vtk/MeshPieceData.h"
 #include "IO/Vtk/OrdinaryMesh.h"
 #include "IO/Vtk/PieceColumns.h"
 #include "IO/Vtk/PieceStream.h"
 #include "Solver/Assembly/Facets.h"
 #include "smg/Error.h"
+#include "smg/Groups.h"
 #include "smg/MeshSource.h"
 
 #include "vtkCellData.h"
@@ -49,6 +51,11 @@ bool MarkedRegion::isByItself(vtkPointSet& piece, const PieceRequest& request) c
            (!isGroup && piece.GetCellData()->HasArray(this->Asked.array.c_str()));
   }
   const bool isWhole = !request.IsStreamed && request.Pieces == 1;
+  if (isWhole && isGroup)
+  {
+    // The corners of facets are found by a stream, which an ordinary mesh is not.
+    return lacksStreamNumbering(piece);
+  }
   if (!isWhole && lacksStreamNumbering(piece))
   {
     // A filter that solves looks at a piece first, and then requests all of an ordinary mesh.
@@ -57,10 +64,9 @@ bool MarkedRegion::isByItself(vtkPointSet& piece, const PieceRequest& request) c
       throw Error("The pieces of the mesh have no GlobalIds, so that the region cannot extend "
                   "across them: save the mesh as .vsm and open that.");
     }
-    return !isGroup;
+    return true;
   }
-  // The corners of facets are found by a stream.
-  return isWhole && !isGroup;
+  return isWhole;
 }
 
 vtkPointSet& MarkedRegion::fetchPiece(
@@ -103,6 +109,10 @@ HeldPoints MarkedRegion::holdShown(vtkPointSet& mesh) const
   if (this->Asked.isBoundary())
   {
     return heldOnBoundary(mesh);
+  }
+  if (!this->Asked.group.empty())
+  {
+    return heldByGroup(mesh, this->Asked.group);
   }
   requireArrays(mesh, { this->Asked.array });
   return heldByCellArray(
@@ -324,6 +334,54 @@ HeldPoints heldByCellArray(
       for (vtkIdType k = 0; k < points->GetNumberOfIds(); ++k)
       {
         held.by[static_cast<std::size_t>(points->GetId(k))] = 0;
+      }
+    }
+  }
+  return held;
+}
+
+HeldPoints heldByGroup(vtkPointSet& mesh, const std::string& name)
+{
+  const MeshGroups groups = groupsIn(mesh);
+  // Of the kinds that have the name, the first one counts, as in problems.
+  constexpr std::array kinds{ GroupOf::Facets, GroupOf::Vertices, GroupOf::Cells };
+  const auto* const kind = std::ranges::find_if(
+    kinds, [&](GroupOf candidate) { return !groups.find(name, candidate).empty(); });
+  if (kind == kinds.end())
+  {
+    throw Error("The mesh has no group '" + name + "'" +
+                (groups.empty() ? "." : "; it has " + groups.listFor(name) + '.'));
+  }
+  const std::vector<std::uint8_t> wanted = groups.setsWith(groups.find(name, *kind));
+  HeldPoints held = noneHeld(mesh);
+  vtkDataArray* const sets =
+    mesh.GetAttributes(*kind == GroupOf::Vertices ? vtkDataObject::POINT : vtkDataObject::CELL)
+      ->GetArray(MeshGroups::columnOf(*kind));
+  const auto isWanted = [&](vtkIdType tuple, int component)
+  {
+    const double set = sets->GetComponent(tuple, component);
+    return set >= 0.0 && set < static_cast<double>(wanted.size()) &&
+           wanted[static_cast<std::size_t>(set)] != 0;
+  };
+  const vtkNew<vtkIdList> points;
+  for (vtkIdType tuple = 0; sets && tuple < sets->GetNumberOfTuples(); ++tuple)
+  {
+    for (int k = 0; k < sets->GetNumberOfComponents(); ++k)
+    {
+      if (!isWanted(tuple, k))
+      {
+        continue;
+      }
+      points->Reset();
+      *kind == GroupOf::Vertices ? void(points->InsertNextId(tuple))
+                                 : mesh.GetCellPoints(tuple, points);
+      for (vtkIdType corner = 0; corner < points->GetNumberOfIds(); ++corner)
+      {
+        // A facet is opposite to the corner of its component.
+        if (*kind != GroupOf::Facets || corner != k)
+        {
+          held.by[static_cast<std::size_t>(points->GetId(corner))] = 0;
+        }
       }
     }
   }

@@ -8,6 +8,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 class vtkDataArray;
 class vtkPointSet;
@@ -63,6 +64,10 @@ HeldPoints heldByPointArray(
  * Throws Error if it has several components. */
 HeldPoints heldByCellArray(
   vtkPointSet& mesh, vtkDataArray& array, const MarkedRegionSettings& settings);
+
+/** The points of a group of a mesh that is whole: of its facets, else of its points, else of its
+ * cells. Throws Error if there is none of this name. */
+HeldPoints heldByGroup(vtkPointSet& mesh, const std::string& name);
 
 /**
  * The points of the boundary of a mesh that is whole, with cells of any types: those of the edges

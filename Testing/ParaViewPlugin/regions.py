@@ -35,6 +35,10 @@ def shown(source, name):
     return t.points_of(source, name)[:, 0]
 
 
+def shown_points(source):
+    return t.vtk_to_numpy(servermanager.Fetch(source).GetPoints().GetData()).copy()
+
+
 def held(handle):
     handle.UpdatePropertyInformation()
     return handle.GetPropertyValue("NumberOfHeldPoints")
@@ -190,6 +194,15 @@ for guard in (2000000, 500):
     region.UpdatePropertyInformation()
     assert list(region.GetPropertyValue("GroupNames")) == ["left half", "right half", "inlet", "film"]
     assert saved(region, "RegionMask").sum() == 13**2, guard
+    # A condition shows its group as the region does, of the preview, too.
+    for name in ("film", "left half"):
+        condition = MeshCondition(Input=block, Condition="Flux", Value=1, Region="Group", GroupName=name)
+        marked = shown(MeshRegion(Input=block, Region="Group", GroupName=name), "RegionMask")
+        assert np.array_equal(shown(condition, "Condition1"), marked) and 0 < marked.sum() < len(marked), (guard, name)
+        condition.UpdatePropertyInformation()
+        assert condition.Outcome.startswith(f"{int(marked.sum()):,} points"), condition.Outcome
+        data = servermanager.Fetch(condition).GetPointData()
+        assert data.GetScalars().GetName() == "Condition1"
     # A source on the film, and what conducts on its right.
     conducts = MeshCondition(Input=block, Condition="Conductivity", Value=3, Region="Group", GroupName="right half")
     cold = MeshCondition(Input=conducts, Condition="Dirichlet", Value=0, Region="Group", GroupName="inlet")
@@ -200,6 +213,24 @@ for guard in (2000000, 500):
     # 2 = T / 6 + 3 T / 6 per area.
     expected = np.where(points[:, 0] < 6, points[:, 0] / 6, (12 - points[:, 0]) / 6) * 3
     assert np.abs(solution - expected).max() < 1e-6, np.abs(solution - expected).max()
+
+# Groups of an ordinary mesh, as ParaView's own reader has them.
+t.run_smg("convert", os.path.join(folder, "block.msh"), os.path.join(folder, "block.vtu"))
+ordinary = XMLUnstructuredGridReader(FileName=[os.path.join(folder, "block.vtu")])
+for group, count in (("film", 13**2), ("left half", 7 * 13**2)):
+    for filter in (MeshRegion(Input=ordinary), MeshCondition(Input=ordinary)):
+        filter.Region, filter.GroupName = "Group", group
+        name = "RegionMask" if filter.GetXMLName() == "MeshRegion" else "Condition1"
+        assert shown(filter, name).sum() == count, (group, name)
+cold = MeshCondition(Input=ordinary, Condition="Dirichlet", Value=0, Region="Group", GroupName="inlet")
+warm = MeshCondition(Input=cold, Condition="Dirichlet", Value=1, Region="Group", GroupName="film")
+measured = StreamingDistance(Input=MeshRegion(Input=ordinary, Region="Group", GroupName="film"))
+for scratch in ("", folder):
+    solved = StreamingPoisson(Input=warm, ScratchDirectory=scratch, Tolerance=1e-10)
+    points, u = shown_points(solved), shown(solved, "Solution")
+    assert np.abs(u - np.minimum(points[:, 0] / 6, 1)).max() < 1e-6
+    measured.ScratchDirectory = scratch
+    assert (shown(measured, "Distance") == 0).sum() == 13**2
 
 # Ordinary meshes, of any cells: in memory, and sorted into a stream.
 plane = Plane(XResolution=5, YResolution=4)
