@@ -160,6 +160,13 @@ void Acceleration::saveMemory()
   this->Kind = AccelerationKind::None;
 }
 
+void Acceleration::noteLimit(bool isLater, bool areFewer)
+{
+  this->Note = std::string("the memory limit is near what conjugate gradients need: they ") +
+               (isLater ? "began one V-cycle later" : "") + (isLater && areFewer ? " and " : "") +
+               (areFewer ? "keep the residuals of one vertex in sixteen" : "");
+}
+
 /** Stops the acceleration, for the given reason. */
 void Acceleration::giveUp(const std::string& reason)
 {

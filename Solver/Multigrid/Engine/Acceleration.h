@@ -110,6 +110,10 @@ public:
    * polynomials, which keep the least, from the third V-cycle on, or, if there is no room for
    * these either, to none. */
   void saveMemory();
+  /** To be called if what conjugate gradients keep follows from the memory limit, since the
+   * solution has other bits then: they began a V-cycle later, for which the memory was measured, or
+   * sample fewer residuals. */
+  void noteLimit(bool isLater, bool areFewer);
 
   /** "none", or the method that was last used: "chebyshev" or "cg". */
   const char* used() const { return nameOf(this->Used); }

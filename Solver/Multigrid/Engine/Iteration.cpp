@@ -29,6 +29,7 @@ void Iteration::run(bool leaveLast)
       { .history = this->History ? &*this->History : nullptr, .inOneChain = measures });
     if (measures)
     {
+      this->HasMeasured = true;
       this->Context.plainPassPeak = this->Context.pool.recentPeak();
       this->Context.valueNodes = this->Levels.window().x().capacity();
     }
@@ -93,17 +94,16 @@ void Iteration::emplaceHistoryWithRoom()
                                     ? KeptResiduals::None
                                   : this->Levels.slowestAtSlivers() ? KeptResiduals::All
                                                                     : KeptResiduals::Sampled;
-  if (this->hasRoom(residuals))
-  {
-    this->emplaceHistory(residuals);
-  }
-  else if (residuals != KeptResiduals::None && this->hasRoom(KeptResiduals::Few))
-  {
-    this->emplaceHistory(KeptResiduals::Few);
-  }
-  else
+  const bool areFewer = !this->hasRoom(residuals);
+  if (areFewer && (residuals == KeptResiduals::None || !this->hasRoom(KeptResiduals::Few)))
   {
     this->Accelerator.saveMemory();
+    return;
+  }
+  this->emplaceHistory(areFewer ? KeptResiduals::Few : residuals);
+  if (residuals != KeptResiduals::None && (areFewer || this->HasMeasured))
+  {
+    this->Accelerator.noteLimit(this->HasMeasured, areFewer);
   }
 }
 

@@ -61,6 +61,7 @@ private:
   ErrorBalance* Balance;
   Acceleration Accelerator;
   KeptResiduals ResidualStorage = KeptResiduals::None; // by the history, for a checkpoint
+  bool HasMeasured = false;                            // memory, in the first pass
   std::optional<IterateHistory> History;
 };
 
