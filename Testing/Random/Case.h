@@ -110,6 +110,11 @@ public:
   /** Groups of vertices, facets and cells, with columns of their sets; mostly. */
   void addGroups();
   nlohmann::json solve();
+  /** Replaces the mesh by one with sides that match, and couples them: periodic, or by a contact.
+   */
+  void coupleSides();
+  /** The other data of such a problem. */
+  void addCoupledData();
   nlohmann::json deform();
   nlohmann::json smooth();
   nlohmann::json distance();
@@ -153,6 +158,7 @@ private:
   Random& Numbers;
   int Columns;
   double Contrast;
+  std::vector<std::int64_t> Inside; ///< vertices of the first body, none on a side
 };
 
 } // namespace smg::testing

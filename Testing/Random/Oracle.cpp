@@ -57,6 +57,8 @@ public:
     to.mass = this->Mass;
     this->addDensities();
     this->addSoft();
+    this->tieSides();
+    this->addContacts();
     this->addFacets();
     this->To.matrix.diagonal() += this->Reaction;
   }
@@ -70,6 +72,13 @@ private:
   void addDensities();
   void addSoft();
   void addFacets();
+  void tieSides();
+  void addContacts();
+  void applyTies();
+  /** The facets of a group, and the mean of their corners. */
+  std::vector<std::pair<std::size_t, Vector3d>> facetsOf(const json& place);
+  double areaOf(std::size_t facet) const;
+  std::int64_t nearestCorner(std::size_t facet, const Vector3d& point) const;
   MatrixXd initial();
   void prescribeMean(const std::vector<std::int64_t>& members, const MatrixXd& start,
     MatrixXd& system, MatrixXd& rightSide) const;
@@ -92,6 +101,14 @@ private:
   int Columns;
   VectorXd Mass, Reaction;
   std::vector<std::int64_t> Part; ///< connected by cells: the parents of a forest
+  /** Vertices that are one with another, and what they have more. */
+  struct Tie
+  {
+    std::int64_t vertex, to;
+    Eigen::RowVectorXd jump;
+  };
+  std::vector<Tie> Ties;
+  std::set<std::size_t> Sides; ///< facets that are no boundary any more
   bool Empty = false;
 };
 
@@ -244,6 +261,132 @@ void Equations::addSoft()
   }
 }
 
+std::vector<std::pair<std::size_t, Vector3d>> Equations::facetsOf(const json& place)
+{
+  std::vector<std::pair<std::size_t, Vector3d>> facets;
+  const std::vector<bool> selected = this->At.select(place, Of::Facets, this->Empty);
+  for (std::size_t f = 0; f < selected.size(); ++f)
+  {
+    if (selected[f])
+    {
+      Vector3d sum = Vector3d::Zero();
+      for (const std::int64_t v : this->At.facets()[f].corners)
+      {
+        sum += this->At.point(v);
+      }
+      facets.emplace_back(f, sum / static_cast<double>(this->At.facets()[f].corners.size()));
+    }
+  }
+  return facets;
+}
+
+std::int64_t Equations::nearestCorner(std::size_t facet, const Vector3d& point) const
+{
+  return *std::ranges::min_element(this->At.facets()[facet].corners, {},
+    [&](std::int64_t v) { return (this->At.point(v) - point).norm(); });
+}
+
+/** Each vertex of the second side is one with that of the first side which the mean shift moves to
+ * its place. */
+void Equations::tieSides()
+{
+  for (const json& entry : this->On.problem.value("periodic", json::array()))
+  {
+    const auto from = this->facetsOf({ { "group", entry.at("sides")[0] } });
+    const auto to = this->facetsOf({ { "group", entry.at("sides")[1] } });
+    Vector3d shift = Vector3d::Zero();
+    for (std::size_t k = 0; k < std::min(from.size(), to.size()); ++k)
+    {
+      shift += (to[k].second - from[k].second) / static_cast<double>(from.size());
+    }
+    Eigen::RowVectorXd jump = Eigen::RowVectorXd::Zero(this->Columns);
+    for (int k = 0; entry.contains("jump") && k < this->Columns; ++k)
+    {
+      jump[k] = entry.at("jump")[static_cast<std::size_t>(k)];
+    }
+    std::set<std::int64_t> tied;
+    for (const auto& [facet, centre] : to)
+    {
+      const Vector3d place = centre - shift;
+      const auto copy = std::ranges::min_element(
+        from, {}, [&](const auto& other) { return (other.second - place).norm(); });
+      for (const std::int64_t v : this->At.facets()[facet].corners)
+      {
+        if (copy != from.end() && tied.insert(v).second)
+        {
+          this->Ties.push_back(
+            { v, this->nearestCorner(copy->first, this->At.point(v) - shift), jump });
+          this->Part[static_cast<std::size_t>(this->partOf(v))] =
+            this->partOf(this->Ties.back().to);
+        }
+      }
+    }
+    for (const auto& [facet, centre] : from)
+    {
+      this->Sides.insert(facet);
+    }
+    for (const auto& [facet, centre] : to)
+    {
+      this->Sides.insert(facet);
+    }
+  }
+}
+
+/** A facet and its copy: coefficient * area, shared by the corners, between each and its copy. */
+void Equations::addContacts()
+{
+  for (const json& entry : this->On.problem.value("interface", json::array()))
+  {
+    const auto facets = this->facetsOf(entry);
+    for (const auto& [facet, centre] : facets)
+    {
+      const Vector3d place = centre;
+      const std::size_t own = facet;
+      const auto copy = std::ranges::min_element(facets, {},
+        [&](const auto& other)
+        { return other.first == own ? 1e300 : (other.second - place).norm(); });
+      const std::vector<std::int64_t>& corners = this->At.facets()[facet].corners;
+      for (const std::int64_t v : corners)
+      {
+        const std::int64_t w = this->nearestCorner(copy->first, this->At.point(v));
+        // Half of it, since the copy finds this facet, too.
+        const double conductance = entry.at("coefficient").get<double>() * this->areaOf(facet) /
+                                   (2.0 * static_cast<double>(corners.size()));
+        this->To.matrix(v, v) += conductance;
+        this->To.matrix(w, w) += conductance;
+        this->To.matrix(v, w) -= conductance;
+        this->To.matrix(w, v) -= conductance;
+        this->Part[static_cast<std::size_t>(this->partOf(v))] = this->partOf(w);
+      }
+    }
+  }
+}
+
+/** The equations of vertices that are one are added up. */
+void Equations::applyTies()
+{
+  for (const Tie& tie : this->Ties)
+  {
+    this->To.matrix.row(tie.to) += this->To.matrix.row(tie.vertex).eval();
+    this->To.rightSide.row(tie.to) += this->To.rightSide.row(tie.vertex).eval();
+    this->To.loads.row(tie.to) += this->To.loads.row(tie.vertex).eval();
+    this->To.matrix.row(tie.vertex).setZero();
+    this->To.matrix(tie.vertex, tie.vertex) = 1.0;
+    this->To.matrix(tie.vertex, tie.to) = -1.0;
+    this->To.rightSide.row(tie.vertex) = tie.jump;
+    this->To.loads.row(tie.vertex) = tie.jump.cwiseAbs();
+  }
+}
+
+double Equations::areaOf(std::size_t f) const
+{
+  const Facet& facet = this->At.facets()[f];
+  const Vector3d a = this->At.point(facet.corners[0]);
+  const Vector3d b = this->At.point(facet.corners[1]) - a;
+  return facet.corners.size() == 2 ? b.norm()
+                                   : b.cross(this->At.point(facet.corners[2]) - a).norm() / 2;
+}
+
 void Equations::addFacets()
 {
   const std::vector<json> fluxes =
@@ -262,12 +405,7 @@ void Equations::addFacets()
   const auto add = [&](std::size_t f, int fluxOf, int robinOf)
   {
     const Facet& facet = this->At.facets()[f];
-    const Vector3d a = this->At.point(facet.corners[0]);
-    const Vector3d b = this->At.point(facet.corners[1]) - a;
-    const double area = facet.corners.size() == 2
-                          ? b.norm()
-                          : b.cross(this->At.point(facet.corners[2]) - a).norm() / 2;
-    const double share = area / static_cast<double>(facet.corners.size());
+    const double share = this->areaOf(f) / static_cast<double>(facet.corners.size());
     for (const std::int64_t v : facet.corners)
     {
       if (fluxOf >= 0)
@@ -294,7 +432,10 @@ void Equations::addFacets()
   { return entries.empty() ? -1 : entries[f]; };
   for (const std::size_t f : this->At.boundary())
   {
-    add(f, entryOf(flux, f), entryOf(robin, f));
+    if (!this->Sides.contains(f))
+    {
+      add(f, entryOf(flux, f), entryOf(robin, f));
+    }
   }
   const std::vector<int> fluxInside = this->At.lastInside(fluxes);
   const std::vector<int> robinInside = this->At.lastInside(robins);
@@ -403,6 +544,7 @@ void Equations::solve()
     }
   }
   this->To.matrix = system;
+  this->applyTies();
   for (std::int64_t v = 0; v < vertices; ++v)
   {
     if (const int entry = held[static_cast<std::size_t>(v)]; entry >= 0)

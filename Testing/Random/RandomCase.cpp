@@ -207,6 +207,11 @@ Case randomCase(std::uint64_t seed)
                                             : maker.blend();
   }
   made.run = randomRun(random, made.job);
+  if (made.job == "solve" && random.uniform() < 0.12)
+  {
+    maker.coupleSides();
+    maker.addCoupledData();
+  }
   return made;
 }
 

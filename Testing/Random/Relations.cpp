@@ -20,6 +20,7 @@ using nlohmann::json;
 enum class Kind
 {
   Level,       ///< the unknown
+  Step,        ///< a difference of the unknown
   Load,        ///< per area of a surface, volume of a solid
   Flux,        ///< per length of a boundary, area of one
   Reaction,    ///< a coefficient of the unknown, as Load
@@ -64,6 +65,9 @@ void visitValues(json& problem, const std::function<void(json&, Kind)>& visit)
   datum(problem, "field", Kind::Field);
   datum(problem, "dirichlet", Kind::Level);
   datum(problem, "flux", Kind::Flux);
+  visitEach(problem, "periodic", [&](json& sides) { datum(sides, "jump", Kind::Step); });
+  visitEach(
+    problem, "interface", [&](json& contact) { datum(contact, "coefficient", Kind::Transfer); });
   visitEach(problem, "robin",
     [&](json& robin)
     {
@@ -159,7 +163,8 @@ Related linear(const Case& given)
   visitValues(related.other.problem,
     [&](json& value, Kind kind)
     {
-      if (kind == Kind::Level || kind == Kind::Load || kind == Kind::Flux || kind == Kind::Field)
+      if (kind == Kind::Level || kind == Kind::Step || kind == Kind::Load || kind == Kind::Flux ||
+          kind == Kind::Field)
       {
         change(related.other, value, "*-2",
           [](std::vector<double> row)
