@@ -228,7 +228,8 @@ std::string meshInfo(const StoredMesh& mesh, const MeshInfoOptions& options)
   json["mean_width"] = reader.meanWidth();
   json["columns"] = { { "vertices", entriesOf(info.vertexColumns) },
     { "cells", entriesOf(info.cellColumns) } };
-  json["groups"] = entriesOf(info.groups.groups);
+  json["groups"] =
+    options.description ? entriesOf(options.description->groups) : entriesOf(info.groups.groups);
   if (const ConversionReport* conversion = options.conversion)
   {
     json["time_steps"] = conversion->time_steps;

@@ -33,6 +33,22 @@ Physical Volume("lower") = {a(1)};
 Physical Volume("upper") = {b(1)};
 Physical Point("corner") = {1};
 """
+BOXES = """
+SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 1, 1, 1};
+Box(2) = {1, 0, 0, 1, 1, 1};
+%s
+Physical Volume("bodies") = {1, 2};
+eps = 1e-6;
+Physical Surface("west") = Surface In BoundingBox {-eps, -eps, -eps, eps, 1 + eps, 1 + eps};
+Physical Surface("east") = Surface In BoundingBox {2 - eps, -eps, -eps, 2 + eps, 1 + eps, 1 + eps};
+Mesh.MeshSizeMax = 0.2;
+"""
+FACES = """
+SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 1, 1, 1};
+Physical Surface("all") = {1 : 6};
+"""
 PLATE = """
 SetFactory("OpenCASCADE");
 Rectangle(1) = {0, 0, 0, 4, 1};
@@ -66,6 +82,9 @@ for arguments in FORMATS:
     run("info", "body.msh", "--report", "info.json", "--full")
     groups = {group["name"]: group for group in load("info.json")["groups"]}
     assert set(groups) == {"cold", "between layers", "heiß oben", "lower", "upper", "corner"}, (arguments, groups)
+    for name, measure in {"cold": 0.01, "lower": 2e-4, "upper": 3e-4, "corner": 0}.items():
+        check((arguments, name), groups[name]["measure"], measure)
+        assert groups[name]["count"] > 0, groups
     cold, hot, film = solve({
         "conductivity": [{"group": "lower", "value": 2}, {"group": "upper", "value": 5}],
         "dirichlet": [{"group": "cold", "value": 10}],
@@ -84,3 +103,18 @@ for arguments in FORMATS:
     check(arguments, left["flux"][0], 2)
     check(arguments, right["flux"][0], -2)
     check(arguments, left["area"], 1)
+
+# Bodies that were not fragmented have different triangles between them, and are not joined by welding their vertices.
+for touching, isJoined in ("", False), ("BooleanFragments{ Volume{1, 2}; Delete; }{}", True):
+    gmsh(BOXES % touching, "3", [])
+    run("convert", "body.msh", "body.vsm", "--weld", "0", "--report", "convert.json")
+    notes = [note for note in load("convert.json")["notes"] if "do not match" in note]
+    assert len(notes) == (0 if isJoined else 1), notes
+    flux = solve({"dirichlet": [{"group": "west", "value": 0}, {"group": "east", "value": 2}]})[1]["flux"][0]
+    assert (abs(flux - 1) < 1e-8) == isJoined, flux
+
+# Gmsh leaves out the volumes if only faces have names: version 4 tells that there are some.
+for arguments, knows in ([], True), (["-format", "msh22"], False), (["-setnumber", "Mesh.SaveAll", "1"], False):
+    gmsh(FACES, "3", arguments)
+    run("convert", "body.msh", "body.vsm", "--report", "convert.json")
+    assert any("name the volumes" in note for note in load("convert.json")["notes"]) == knows, arguments

@@ -3,6 +3,7 @@
 
 #include "IO/Import/RawMeshBuilder.h"
 #include "IO/Mesh/Columns.h"
+#include "Solver/Core/Text.h"
 
 #include <algorithm>
 #include <array>
@@ -98,6 +99,19 @@ GmshTags::GmshTags(RawMeshBuilder& builder)
 {
 }
 
+void GmshTags::finish()
+{
+  this->Physical.finish();
+  this->Geometrical.finish();
+  if (this->Volumes > 0 && !this->HasSolids)
+  {
+    this->Builder.note("The geometry has " + counted(this->Volumes, "volume", "volumes") +
+                       ", but the file no tetrahedra or other solids, so that it is read as a "
+                       "surface. Gmsh writes only what is in a physical group: name the volumes, "
+                       "too (Physical Volume), or set Mesh.SaveAll.");
+  }
+}
+
 void GmshTags::readNames(GmshInput& input)
 {
   const std::int64_t names = input.lineCount("the number of names", 5, 5);
@@ -116,6 +130,7 @@ void GmshTags::readEntities(GmshInput& input)
   {
     count = input.count("the number of entities", 8, 32);
   }
+  this->Volumes = counts[3];
   for (std::size_t dimension = 0; dimension < counts.size(); ++dimension)
   {
     for (std::int64_t i = 0; i < counts[dimension]; ++i)

@@ -65,16 +65,13 @@ public:
   /** Appends the tags of the next element. */
   void add(const Physicals& groups, int dimension, std::int64_t entity)
   {
+    this->HasSolids = this->HasSolids || dimension == 3;
     this->Builder.setGroups(groups.set);
     this->Physical.add(groups.first, dimension);
     this->Geometrical.add(entity, dimension);
   }
-  /** After the last element. */
-  void finish()
-  {
-    this->Physical.finish();
-    this->Geometrical.finish();
-  }
+  /** After the last element. Notes that a geometry of volumes has no cells of these. */
+  void finish();
 
 private:
   void readEntity(GmshInput& input, std::size_t dimension, bool isPartitioned);
@@ -82,6 +79,8 @@ private:
 
   RawMeshBuilder& Builder;
   LabelColumn Physical, Geometrical;
+  std::int64_t Volumes = 0; ///< of the geometry, as far as the file says
+  bool HasSolids = false;   ///< among the elements
   Reservation GroupMemory;
   std::array<std::map<std::int64_t, Physicals>, 4> Groups; ///< by dimension and entity
 };
