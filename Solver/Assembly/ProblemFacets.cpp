@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <string>
 
 // The data of a problem on the facets of its cells (edges of triangles, faces of tetrahedra).
@@ -38,8 +37,9 @@ ProblemFacets::ProblemFacets(
   , Corners(static_cast<std::size_t>(BoundaryFacet::cornersOf(type)))
   , Counts(problem.conditionCounts())
   , Open(pool)
-  , ValueLane(VertexLane + (vertices.ties.any() ? this->Corners : 0))
-  , Data(pool, static_cast<int>(this->ValueLane + this->Corners * (1 + 2 * this->Columns)))
+  , Records(pool)
+  , Values(pool, static_cast<int>(this->Corners * (1 + 2 * this->Columns)))
+  , Placed(pool)
 {
 }
 
@@ -118,21 +118,21 @@ void ProblemFacets::addCell(const std::int64_t* corner, std::int64_t cell, std::
       continue;
     }
     const std::size_t facet = c * static_cast<std::size_t>(corners) + static_cast<std::size_t>(k);
-    const std::int32_t data = this->keep(sorted.order, corner, k, facet, cell);
+    const std::int32_t record = this->keep(sorted.order, corner, k, facet, cell);
     const std::int32_t before =
-      this->Open.add(sorted.vertex[0], sorted.vertex[1], sorted.vertex[2], data);
+      this->Open.add(sorted.vertex[0], sorted.vertex[1], sorted.vertex[2], record);
     if (before != OpenFacets::Fresh && this->Vertices.ties.any())
     {
-      this->requireApart(sorted, before, data, cell);
+      this->requireApart(sorted, before, record, cell);
     }
     // A second cell has the facet: it is interior, and of neither cell's data more is needed than
     // what holds there. A third one gets 0, for no data, from add().
-    for (const std::int32_t kept : { before, data })
+    for (const std::int32_t kept : { before, record })
     {
       if (before != OpenFacets::Fresh && kept > 0)
       {
         this->keepInside(sorted, this->insideOf(kept));
-        this->Data.give(kept);
+        this->drop(kept);
       }
     }
   }
@@ -146,14 +146,10 @@ void ProblemFacets::requireApart(
   int equal = 0;
   for (std::size_t e = 0; e < this->Corners; ++e)
   {
-    const auto vertexOf = [&](std::int32_t data)
+    const auto vertexOf = [&](std::int32_t record)
     {
-      std::int64_t vertex = facet.vertex[e];
-      if (data > 0)
-      {
-        std::memcpy(&vertex, this->Data.at(data) + VertexLane + e, sizeof(vertex));
-      }
-      return vertex;
+      const std::int32_t placed = record > 0 ? this->Records[record].vertices : 0;
+      return placed > 0 ? this->Placed[placed][e] : facet.vertex[e];
     };
     equal += vertexOf(first) == vertexOf(second) ? 1 : 0;
   }
@@ -164,10 +160,10 @@ void ProblemFacets::requireApart(
   }
 }
 
-/** Keeps the data of an inner facet, those that came first; 0: none. */
-void ProblemFacets::keepInside(const CellFacet& facet, std::int32_t data)
+/** Keeps the record of an inner facet, the one that came first; 0: none. */
+void ProblemFacets::keepInside(const CellFacet& facet, std::int32_t record)
 {
-  if (data == 0)
+  if (record == 0)
   {
     return;
   }
@@ -176,10 +172,28 @@ void ProblemFacets::keepInside(const CellFacet& facet, std::int32_t data)
     { return known.middle == facet.vertex[1] && known.high == facet.vertex[2]; });
   if (isKnown)
   {
-    this->forget(data);
+    this->forget(record);
     return;
   }
-  ofVertex.push_back({ facet.vertex[1], facet.vertex[2], data });
+  ofVertex.push_back({ facet.vertex[1], facet.vertex[2], record });
+}
+
+void ProblemFacets::drop(std::int32_t record)
+{
+  if (record == 0)
+  {
+    return;
+  }
+  const Record& dropped = this->Records[record];
+  if (dropped.values > 0)
+  {
+    this->Values.give(dropped.values);
+  }
+  if (dropped.vertices > 0)
+  {
+    this->Placed.give(dropped.vertices);
+  }
+  this->Records.give(record);
 }
 
 /** Whether enough corners of a cell are prescribed for one of its facets to be wanted: a quick
@@ -210,9 +224,8 @@ bool ProblemFacets::hasTied(const std::int64_t* vertices) const
            [this](std::int64_t vertex) { return this->Vertices.ties.isTied(vertex); });
 }
 
-/** Stores the data of facet number `facet` of the batch, and returns their slot; 0 if the facet has
- * no condition and no tied corner. It is opposite to corner k of its cell. `order`: see CellFacet.
- */
+/** Stores facet number `facet` of the batch, and returns its record; 0 if it has no condition and
+ * no tied corner. It is opposite to corner k of its cell. `order`: see CellFacet. */
 std::int32_t ProblemFacets::keep(
   const int* order, const std::int64_t* corner, int k, std::size_t facet, std::int64_t cell)
 {
@@ -225,55 +238,54 @@ std::int32_t ProblemFacets::keep(
   {
     return 0;
   }
-  const std::int32_t slot =
+  const std::int32_t record =
     this->keep(hasConditions ? &this->Asked : nullptr, order, vertices, facet, cell);
   if (isInside)
   {
     const std::int32_t inside = this->keep(&this->AskedInside, order, vertices, facet, cell);
-    this->Data.at(slot)[InsideLane] = inside;
+    this->Records[record].inside = inside;
   }
-  return slot;
+  return record;
 }
 
-/** `values`: null: it has no condition. The slot is an array of doubles, the first two of which
- * have the bits of integers; memcpy() is the defined way to put them there. */
+/** `values`: null: it has no condition. */
 std::int32_t ProblemFacets::keep(const BatchValues* values, const int* order,
   const std::int64_t* vertices, std::size_t facet, std::int64_t cell)
 {
-  const std::int32_t conditions[2] = { values ? values->flux[facet] : -1,
-    values ? values->robin[facet] : -1 };
-  if (conditions[0] >= this->Counts.flux || conditions[1] >= this->Counts.robin)
-  {
-    throw Error("a facet of cell " + std::to_string(cell) +
-                " names a condition that the problem does not have: see conditionCounts");
-  }
-  const std::int32_t slot = this->Data.take();
-  double* kept = this->Data.at(slot);
-  std::memcpy(kept++, conditions, sizeof(conditions));
-  // A negative number distinguishes an index in the stream from one in the original file.
-  const std::int64_t name =
+  Record record{ -1, -1, 0, 0, 0, 0 };
+  record.cell =
     this->CellIds ? this->CellIds->as<std::int64_t>()[cell - this->FirstCell] : -1 - cell;
-  std::memcpy(kept++, &name, sizeof(name));
-  *kept++ = 0.0;
-  for (std::size_t e = 0; this->Vertices.ties.any() && e < this->Corners; ++e, ++kept)
+  if (this->Vertices.ties.any())
   {
-    std::memcpy(kept, &vertices[order[e]], sizeof(double));
+    record.vertices = this->Placed.take();
+    std::transform(order, order + this->Corners, this->Placed[record.vertices].begin(),
+      [vertices](int e) { return vertices[e]; });
   }
-  if (!values)
+  if (values)
   {
-    return slot;
-  }
-  const auto copy = [&](const std::vector<double>& numbers, std::size_t each)
-  {
-    for (std::size_t e = 0; e < this->Corners; ++e, kept += each)
+    record.flux = values->flux[facet];
+    record.robin = values->robin[facet];
+    if (record.flux >= this->Counts.flux || record.robin >= this->Counts.robin)
     {
-      const std::size_t corner = facet * this->Corners + static_cast<std::size_t>(order[e]);
-      std::copy_n(numbers.data() + corner * each, each, kept);
+      throw Error("a facet of cell " + std::to_string(cell) +
+                  " names a condition that the problem does not have: see conditionCounts");
     }
-  };
-  copy(values->fluxValue, this->Columns);
-  copy(values->coefficient, 1);
-  copy(values->ambient, this->Columns);
+    record.values = this->Values.take();
+    double* kept = this->Values.at(record.values);
+    const auto copy = [&](const std::vector<double>& numbers, std::size_t each)
+    {
+      for (std::size_t e = 0; e < this->Corners; ++e, kept += each)
+      {
+        const std::size_t corner = facet * this->Corners + static_cast<std::size_t>(order[e]);
+        std::copy_n(numbers.data() + corner * each, each, kept);
+      }
+    };
+    copy(values->fluxValue, this->Columns);
+    copy(values->coefficient, 1);
+    copy(values->ambient, this->Columns);
+  }
+  const std::int32_t slot = this->Records.take();
+  this->Records[slot] = record;
   return slot;
 }
 
@@ -303,28 +315,28 @@ void ProblemFacets::require(const BoundaryFacet& facet, std::int64_t name) const
   }
 }
 
-/** The facet with pointers to its data in the slot, which the caller releases after use. */
+/** The facet with pointers to its values, whose record the caller releases after use. */
 BoundaryFacet ProblemFacets::facet(
-  std::int64_t low, std::int64_t middle, std::int64_t high, std::int32_t data) const
+  std::int64_t low, std::int64_t middle, std::int64_t high, std::int32_t record) const
 {
   BoundaryFacet facet{ { low, middle, high } };
-  if (data > 0)
+  if (record == 0)
   {
-    const double* kept = this->Data.at(data);
-    std::int32_t conditions[2];
-    std::memcpy(conditions, kept, sizeof(conditions));
-    std::int64_t name = 0;
-    std::memcpy(&name, kept + 1, sizeof(name));
-    facet.flux = conditions[0];
-    facet.robin = conditions[1];
-    for (std::size_t e = 0; this->Vertices.ties.any() && e < this->Corners; ++e)
-    {
-      std::memcpy(&facet.vertices[e], kept + VertexLane + e, sizeof(double));
-    }
-    facet.fluxValue = kept + this->ValueLane;
+    return facet;
+  }
+  const Record& kept = this->Records[record];
+  if (kept.vertices > 0)
+  {
+    std::copy_n(this->Placed[kept.vertices].begin(), this->Corners, facet.vertices);
+  }
+  if (kept.values > 0)
+  {
+    facet.flux = kept.flux;
+    facet.robin = kept.robin;
+    facet.fluxValue = this->Values.at(kept.values);
     facet.coefficient = facet.fluxValue + this->Corners * this->Columns;
     facet.ambient = facet.coefficient + this->Corners;
-    this->require(facet, name);
+    this->require(facet, kept.cell);
   }
   return facet;
 }

@@ -5,6 +5,7 @@
 #include "Solver/Assembly/OpenVertices.h"
 #include "smg/Problem.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -47,18 +48,18 @@ public:
   void take(std::int64_t vertex, Found&& found)
   {
     this->Open.take(vertex,
-      [&](std::int64_t middle, std::int64_t high, std::int32_t data)
+      [&](std::int64_t middle, std::int64_t high, std::int32_t record)
       {
-        const BoundaryFacet facet = this->facet(vertex, middle, high, data);
+        const BoundaryFacet facet = this->facet(vertex, middle, high, record);
         if (!this->isExcluded(facet))
         {
           found(facet, this->areaOf(facet));
         }
-        else if (const std::int32_t inside = this->insideOf(data); inside > 0)
+        else if (const std::int32_t inside = this->insideOf(record); inside > 0)
         {
           found(this->innerFacet(vertex, middle, high, inside), this->areaOf(facet));
         }
-        this->forget(data);
+        this->forget(record);
       });
     const auto inner = this->Inner.find(vertex);
     if (inner == this->Inner.end())
@@ -67,9 +68,9 @@ public:
     }
     for (const InnerFacet& kept : inner->second)
     {
-      const BoundaryFacet facet = this->innerFacet(vertex, kept.middle, kept.high, kept.data);
+      const BoundaryFacet facet = this->innerFacet(vertex, kept.middle, kept.high, kept.record);
       found(facet, this->areaOf(facet));
-      this->forget(kept.data);
+      this->forget(kept.record);
     }
     this->Inner.erase(inner);
   }
@@ -103,29 +104,29 @@ private:
     const CellFacet& facet, std::int32_t first, std::int32_t second, std::int64_t cell) const;
   void require(const BoundaryFacet& facet, std::int64_t name) const;
   BoundaryFacet facet(
-    std::int64_t low, std::int64_t middle, std::int64_t high, std::int32_t data) const;
+    std::int64_t low, std::int64_t middle, std::int64_t high, std::int32_t record) const;
   bool isExcluded(const BoundaryFacet& facet) const;
-  /** The data of the conditions that hold if the facet is between cells; 0: none. */
-  std::int32_t insideOf(std::int32_t data) const
+  /** The record of the conditions that hold if the facet is between cells; 0: none. */
+  std::int32_t insideOf(std::int32_t record) const
   {
-    return data > 0 ? static_cast<std::int32_t>(this->Data.at(data)[InsideLane]) : 0;
+    return record > 0 ? this->Records[record].inside : 0;
   }
   BoundaryFacet innerFacet(
-    std::int64_t low, std::int64_t middle, std::int64_t high, std::int32_t data) const
+    std::int64_t low, std::int64_t middle, std::int64_t high, std::int32_t record) const
   {
-    BoundaryFacet facet = this->facet(low, middle, high, data);
+    BoundaryFacet facet = this->facet(low, middle, high, record);
     facet.isInner = true;
     return facet;
   }
-  void keepInside(const CellFacet& facet, std::int32_t data);
+  void keepInside(const CellFacet& facet, std::int32_t record);
   double areaOf(const BoundaryFacet& facet) const;
-  void forget(std::int32_t data)
+  /** Releases the record, but not what holds inside. */
+  void drop(std::int32_t record);
+  /** Releases the record and what holds inside. */
+  void forget(std::int32_t record)
   {
-    if (data > 0)
-    {
-      this->forget(this->insideOf(data));
-      this->Data.give(data);
-    }
+    this->drop(this->insideOf(record));
+    this->drop(record);
   }
 
   Problem& Given;
@@ -139,17 +140,22 @@ private:
   struct InnerFacet
   {
     std::int64_t middle, high;
-    std::int32_t data;
+    std::int32_t record;
   };
   /** Facets of two cells or more with conditions, by their lowest corner, which is open. */
   std::map<std::int64_t, std::vector<InnerFacet>> Inner;
-  static constexpr int InsideLane = 2, VertexLane = 3;
-  std::size_t ValueLane;
-  /** The data of a facet: its two conditions, its cell, the data of those that hold if it is
-   * between cells (0: none), with ties where its corners are, fluxes, coefficients and ambient
-   * values. The cell is given by its
-   * index in the original file, or as -1 minus its index in the stream. */
-  FreeList<double> Data;
+  /** What is stored of a facet that has conditions or tied corners. */
+  struct Record
+  {
+    std::int32_t flux, robin; ///< its conditions; -1: none
+    std::int32_t values;      ///< in Values; 0: it has no conditions
+    std::int32_t vertices;    ///< in Placed: where its corners are; 0: where they are stated
+    std::int32_t inside;      ///< the record of the conditions that hold between cells; 0: none
+    std::int64_t cell;        ///< its index in the original file, or -1 minus that in the stream
+  };
+  FreeList<Record> Records;
+  FreeList<double> Values; ///< fluxes, coefficients and ambient values at the corners
+  FreeList<std::array<std::int64_t, 3>> Placed;
   // The block.
   const Column* CellIds = nullptr;
   std::int64_t FirstCell = 0;
