@@ -62,6 +62,14 @@ inline std::string listed(const auto& words, const std::string& conjunction)
   return list;
 }
 
+/** "robin[0] (fin)": entry `index` of the list `key` of a description, with the groups of its
+ * place; without these "robin[0]". */
+inline std::string nameOfEntry(
+  const std::string& key, std::size_t index, const std::string& groups = "")
+{
+  return key + '[' + std::to_string(index) + ']' + (groups.empty() ? "" : " (" + groups + ')');
+}
+
 /** The shortest text that reads back exactly, as of the same type. */
 template <class Real>
 std::string shortest(Real number)

@@ -55,7 +55,7 @@ CouplingSearch::CouplingSearch(
   }
   for (std::size_t k = 0; k < this->Periodic.size(); ++k)
   {
-    const std::string key = "periodic[" + std::to_string(k) + ']';
+    const std::string key = nameOfEntry("periodic", k);
     std::vector<double>& jump = this->Periodic[k].jump;
     if (jump.size() > 1 && jump.size() != this->ValueColumns)
     {
@@ -68,7 +68,7 @@ CouplingSearch::CouplingSearch(
   }
   for (std::size_t k = 0; k < this->Interfaces.size(); ++k)
   {
-    const std::string key = "interface[" + std::to_string(k) + ']';
+    const std::string key = nameOfEntry("interface", k);
     if (!(this->Interfaces[k].coefficient >= 0.0) ||
         !std::isfinite(this->Interfaces[k].coefficient))
     {
@@ -164,10 +164,8 @@ void CouplingSearch::end(const MeshParts* parts)
   this->addLinks(classes, found->links);
   for (std::size_t k = 0; k < this->Interfaces.size(); ++k)
   {
-    const std::string group = groupNames(this->Interfaces[k].where);
-    found->contacts.push_back(
-      { "interface[" + std::to_string(k) + ']' + (group.empty() ? "" : " (" + group + ')'),
-        this->Interfaces[k].coefficient });
+    found->contacts.push_back({ nameOfEntry("interface", k, groupNames(this->Interfaces[k].where)),
+      this->Interfaces[k].coefficient });
   }
   this->Reserved.resize(
     static_cast<std::int64_t>(found->ties.capacity() * sizeof(VertexCouplings::Tie) +

@@ -2,6 +2,7 @@
 #include "Solver/Jobs/Results/ResultSums.h"
 
 #include "Solver/Assembly/Elements.h"
+#include "Solver/Core/Text.h"
 #include "Solver/Jobs/Results/KnownFluxes.h"
 
 #include <algorithm>
@@ -168,18 +169,12 @@ std::vector<Report::Condition> ConditionSums::conditions() const
   this->append("dirichlet", this->Dirichlet, conditions);
   this->append("flux", this->Flux, conditions);
   this->append("robin", this->Robin, conditions);
-  for (std::size_t c = 0; c < conditions.size(); ++c)
-  {
-    conditions[c].name += this->groupOf(c);
-  }
   return conditions;
 }
 
 std::string ConditionSums::groupOf(std::size_t place) const
 {
-  return place < this->Groups.size() && !this->Groups[place].empty()
-           ? " (" + this->Groups[place] + ')'
-           : "";
+  return place < this->Groups.size() ? this->Groups[place] : "";
 }
 
 std::string ConditionSums::groupOfPart(std::size_t part) const
@@ -196,7 +191,7 @@ void ConditionSums::append(
   {
     const Sums& sums = all[number];
     Report::Condition condition;
-    condition.name = kind + ("[" + std::to_string(number) + "]");
+    condition.name = nameOfEntry(kind, number, this->groupOf(conditions.size()));
     condition.vertices = static_cast<std::int64_t>(sums.vertices);
     condition.area = sums.area;
     condition.flux = sums.flux;
@@ -432,8 +427,7 @@ void ResultSums::reportParts(Report& report) const
   {
     if (this->Parts[p].measure > 0.0 && this->Parts[p].measure < all.measure)
     {
-      add(p == last ? "elsewhere"
-                    : "conductivity[" + std::to_string(p) + ']' + this->conditions.groupOfPart(p),
+      add(p == last ? "elsewhere" : nameOfEntry("conductivity", p, this->conditions.groupOfPart(p)),
         this->Parts[p]);
     }
   }

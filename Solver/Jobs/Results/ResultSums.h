@@ -41,7 +41,7 @@ public:
   void add(std::int32_t dirichlet, const double* value, const double* reaction, std::int32_t label);
 
   std::vector<Report::Condition> conditions() const;
-  /** The group of a part, as it follows its name. */
+  /** The groups of a part; empty: none. */
   std::string groupOfPart(std::size_t part) const;
   /** Appends pointers to all sums, so that those of the parts of a mesh can be added up. */
   void appendNumbers(std::vector<double*>& numbers);
@@ -62,7 +62,7 @@ private:
   void addFlux(Sums& sums, std::size_t column, double flux, std::int32_t label);
   void addRobin(
     const BoundaryFacet& facet, double area, const OpenVertices& vertices, std::int32_t label);
-  /** The group of a condition or part, by its place among all. */
+  /** The groups of a condition or part, by its place among all; empty: none. */
   std::string groupOf(std::size_t place) const;
   void append(const char* kind, const std::vector<Sums>& all,
     std::vector<Report::Condition>& conditions) const;
