@@ -3,9 +3,7 @@
 
 #include "Filters/Pieces/PieceBlock.h"
 #include "Filters/Pieces/ReplacedArray.h"
-#include "Solver/Files/VertexFile.h"
 #include "Solver/Jobs/Results/ProblemResults.h"
-#include "Solver/Mesh/AddedColumn.h"
 #include "Solver/Mesh/VisitBlocks.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "Solver/Problem/ComposeDescriptions.h"
@@ -25,6 +23,8 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace smg
 {
@@ -105,51 +105,37 @@ void PoissonTask::prepareFor(const StreamInfo& info)
 namespace
 {
 
-/** A solution with its gradients at the vertices, as they are in the stream of a SolvedMesh: n and
- * 3 n columns. */
+/** A solution with its gradients at the vertices: n and 3 n columns. */
 class SolutionWithGradient final : public Solution
 {
 public:
-  SolutionWithGradient(const std::filesystem::path& scratch, int columns)
-    : Folder(scratch)
-    , Gradients({ this->Memory, &this->Folder, this->Traffic }, 3 * columns)
-    , Columns(static_cast<std::size_t>(columns))
+  SolutionWithGradient(std::unique_ptr<Solution> values, std::unique_ptr<Solution> gradients)
+    : Values(std::move(values))
+    , Gradients(std::move(gradients))
   {
   }
-
-  void append(const MeshBlock& block)
-  {
-    const ColumnSpec spec{ GradientName, ScalarType::Float64, this->Gradients.lanes() };
-    const auto column = static_cast<std::size_t>(findColumn(block.vertexColumns, spec));
-    this->Gradients.append(block.vertexColumns.at(column).as<double>());
-  }
-  void setValues(std::unique_ptr<Solution> values) { this->Values = std::move(values); }
 
   std::int64_t vertices() const override { return this->Values->vertices(); }
-  int columns() const override { return static_cast<int>(4 * this->Columns); }
+  int columns() const override { return this->Values->columns() + this->Gradients->columns(); }
   void read(std::int64_t first, std::int64_t count, std::span<double> values) override
   {
     const auto rows = static_cast<std::size_t>(count);
-    std::vector<double> own(rows * this->Columns), gradients(3 * own.size());
+    const auto columns = static_cast<std::size_t>(this->Values->columns());
+    std::vector<double> own(rows * columns), gradients(3 * own.size());
     this->Values->read(first, count, own);
-    this->Gradients.read(first, count, gradients.data());
+    this->Gradients->read(first, count, gradients);
     for (std::size_t row = 0; row < rows; ++row)
     {
-      double* to = values.data() + 4 * row * this->Columns;
-      to = std::copy_n(own.data() + row * this->Columns, this->Columns, to);
-      std::copy_n(gradients.data() + 3 * row * this->Columns, 3 * this->Columns, to);
+      double* to = values.data() + 4 * row * columns;
+      to = std::copy_n(own.data() + row * columns, columns, to);
+      std::copy_n(gradients.data() + 3 * row * columns, 3 * columns, to);
     }
   }
   void removeCheckpoint() override { this->Values->removeCheckpoint(); }
   const Report& report() const override { return this->Values->report(); }
 
 private:
-  Pool Memory{ INT64_MAX };
-  ScratchFolder Folder;
-  IoStatistics Traffic;
-  VertexFile Gradients;
-  std::size_t Columns;
-  std::unique_ptr<Solution> Values;
+  std::unique_ptr<Solution> Values, Gradients;
 };
 
 } // namespace
@@ -159,30 +145,19 @@ void PoissonTask::complete(Result& result, const StoredMesh& mesh, const Progres
   ProblemDescription& description = this->asked.description;
   // Pieces get their cell arrays when they are delivered.
   description.gradientOutput = description.fluxOutput = false;
-  std::unique_ptr<SolutionWithGradient> gradients;
-  if (description.vertexGradientOutput)
-  {
-    gradients = std::make_unique<SolutionWithGradient>(
-      this->asked.solving.scratch, result.solution->columns());
-  }
+  std::unique_ptr<Solution> gradients;
   this->asked.passResult(
     mesh, *result.solution,
     [&](MeshSource& solved, const ProgressFunction& read)
     {
-      visitBlocks(solved, read, 0.0, 1.0,
-        [&](const MeshBlock& block)
-        {
-          if (gradients)
-          {
-            gradients->append(block);
-          }
-        });
+      visitBlocks(solved, read, 0.0, 1.0, [](const MeshBlock&) {});
+      gradients = dynamic_cast<SolvedMesh&>(solved).takeVertexGradients();
     },
     result.report, progress);
   if (gradients)
   {
-    gradients->setValues(std::move(result.solution));
-    result.solution = std::move(gradients);
+    result.solution =
+      std::make_unique<SolutionWithGradient>(std::move(result.solution), std::move(gradients));
   }
 }
 

@@ -46,7 +46,7 @@ std::unique_ptr<MeshSource> wholeSource(const StoredMesh& mesh)
 
 /** The gradients at the vertices, which follow from cells that come later: from a reading of the
  * mesh before the one that passes them on, in a scratch file. */
-class VertexGradientFile
+class VertexGradientFile final : public Solution
 {
 public:
   VertexGradientFile(
@@ -67,15 +67,24 @@ public:
     results.finish(unused);
   }
 
-  /** Those of the vertices of a block. */
-  std::vector<double> of(const MeshBlock& block) const
+  std::int64_t vertices() const override { return this->File.vertices(); }
+  int columns() const override { return this->File.lanes(); }
+  void read(std::int64_t first, std::int64_t count, std::span<double> values) override
   {
-    std::vector<double> values(static_cast<std::size_t>(block.vertices() * this->File.lanes()));
-    this->File.read(block.firstVertex, block.vertices(), values.data());
+    this->File.read(first, count, values.data());
+  }
+  const Report& report() const override { return this->Empty; }
+
+  /** Those of the vertices of a block. */
+  std::vector<double> of(const MeshBlock& block)
+  {
+    std::vector<double> values(static_cast<std::size_t>(block.vertices() * this->columns()));
+    this->read(block.firstVertex, block.vertices(), values);
     return values;
   }
 
 private:
+  Report Empty;
   Pool Memory;
   ScratchFolder Folder;
   IoStatistics Traffic;
@@ -142,7 +151,7 @@ struct SolvedMesh::Implementation
   const StoredMesh& mesh;
   Problem& problem;
   Solution& solution;
-  std::optional<VertexGradientFile> vertexGradients; ///< from the first block on, if wanted
+  std::unique_ptr<VertexGradientFile> vertexGradients; ///< from the first block on, if wanted
 };
 
 SolvedMesh::SolvedMesh(
@@ -162,7 +171,7 @@ bool SolvedMesh::next(MeshBlock& block)
 {
   if (this->Self->wanted.gradientAtVertices && !this->Self->vertexGradients)
   {
-    this->Self->vertexGradients.emplace(
+    this->Self->vertexGradients = std::make_unique<VertexGradientFile>(
       this->Self->mesh, this->Self->problem, this->Self->solution, this->Self->wanted);
   }
   if (!this->Self->source->next(block))
@@ -197,6 +206,11 @@ bool SolvedMesh::next(MeshBlock& block)
     append(FluxName, 3 * columns, this->Self->results.flux(), block.cellColumns);
   }
   return true;
+}
+
+std::unique_ptr<Solution> SolvedMesh::takeVertexGradients()
+{
+  return std::move(this->Self->vertexGradients);
 }
 
 void SolvedMesh::finish(Report& report)

@@ -59,6 +59,11 @@ public:
    */
   void finish(Report& report);
 
+  /** Hands over the column Gradient of the vertices, 3 numbers for each column of the problem, with
+   * its scratch file. To be called when the stream has been read to its end; null if it is not
+   * wanted. */
+  std::unique_ptr<Solution> takeVertexGradients();
+
 private:
   struct Implementation;
   std::unique_ptr<Implementation> Self;
