@@ -7,8 +7,8 @@
 #include "Solver/Multigrid/Extended.h"
 #include "smg/DescribedProblem.h"
 
-// The entry for many right-hand sides of one problem: checks the options, and hides the engine from
-// the public header.
+// The entries for many right-hand sides of one problem: they check the options, and hide the engine
+// from the public header.
 
 namespace smg
 {
@@ -25,43 +25,86 @@ SolveOptions linearOptions(SolveOptions options)
   return options;
 }
 
-} // namespace
-
-struct LinearSolver::Implementation
+/** Those of a system on disk. */
+SolveOptions onDiskOptions(SolveOptions options)
 {
-  Implementation(MeshSource& mesh, Problem& problem, const SolveOptions& options)
-    : engine(compiled(Extended::forCells(mesh.info().cellType)), problem.columns(), options)
+  refuseCheckpoint(options, "a system on disk has");
+  options.inCore = false;
+  checkOptions(options);
+  checkOperators(options);
+  return options;
+}
+
+/** An engine of this process. */
+class OwnEngine
+{
+public:
+  OwnEngine(MeshSource& mesh, Problem& problem, const SolveOptions& options)
+    : Engine(compiled(Extended::forCells(mesh.info().cellType)), problem.columns(), options)
   {
-    this->engine.build(mesh, problem);
+    this->Engine.build(mesh, problem);
   }
 
+  const LinearEngine& engine() const { return this->Engine; }
   /** The engine to compute with. Throws Error in a forked child. */
   LinearEngine& ownEngine()
   {
-    this->process.require("a linear solver");
-    return this->engine;
+    this->Process.require("a linear solver");
+    return this->Engine;
   }
 
-  LinearEngine engine;
-  OwnProcess process;
+private:
+  LinearEngine Engine;
+  OwnProcess Process;
+};
+
+/** For a problem that is described. */
+template <class Implementation>
+std::unique_ptr<Implementation> described(const StoredMesh& mesh, const ProblemDescription& problem,
+  const SolveOptions& options, const std::string& name)
+{
+  DescribedProblem described(problem, mesh.info(), name);
+  const auto source = [&]
+  { return mesh.source(described.vertexColumns(), described.cellColumns()); };
+  described.prepare(*source(), options.scratch, options.memoryLimit);
+  return std::make_unique<Implementation>(*source(), described, options);
+}
+
+template <class Implementation>
+std::unique_ptr<Implementation> given(
+  MeshSource& mesh, Problem& problem, const SolveOptions& options)
+{
+  checkProblem(problem);
+  return std::make_unique<Implementation>(mesh, problem, options);
+}
+
+/** When a solve ends; the tolerance must be a number. */
+Stopping stoppingAt(double tolerance, int maxCycles)
+{
+  SolveOptions asked;
+  asked.tolerance = tolerance;
+  asked.maxCycles = maxCycles;
+  checkOptions(asked);
+  refuseAutomaticTolerance(asked, "a linear solver");
+  return { tolerance, maxCycles };
+}
+
+} // namespace
+
+struct LinearSolver::Implementation : OwnEngine
+{
+  using OwnEngine::OwnEngine;
 };
 
 LinearSolver::LinearSolver(MeshSource& mesh, Problem& problem, const SolveOptions& options)
+  : Self(given<Implementation>(mesh, problem, linearOptions(options)))
 {
-  const SolveOptions checked = linearOptions(options);
-  checkProblem(problem);
-  this->Self = std::make_unique<Implementation>(mesh, problem, checked);
 }
 
 LinearSolver::LinearSolver(const StoredMesh& mesh, const ProblemDescription& problem,
   const SolveOptions& options, const std::string& name)
+  : Self(described<Implementation>(mesh, problem, linearOptions(options), name))
 {
-  const SolveOptions checked = linearOptions(options);
-  DescribedProblem described(problem, mesh.info(), name);
-  const auto source = [&]
-  { return mesh.source(described.vertexColumns(), described.cellColumns()); };
-  described.prepare(*source(), checked.scratch, checked.memoryLimit);
-  this->Self = std::make_unique<Implementation>(*source(), described, checked);
 }
 
 LinearSolver::~LinearSolver() = default;
@@ -70,23 +113,18 @@ LinearSolver& LinearSolver::operator=(LinearSolver&& other) noexcept = default;
 
 std::int64_t LinearSolver::vertices() const
 {
-  return this->Self->engine.vertices();
+  return this->Self->engine().vertices();
 }
 
 int LinearSolver::columns() const
 {
-  return this->Self->engine.columns();
+  return this->Self->engine().columns();
 }
 
 const Report& LinearSolver::solve(std::span<const double> b, std::span<double> x, double tolerance,
   int maxCycles, const ProgressFunction& progress)
 {
-  SolveOptions asked;
-  asked.tolerance = tolerance;
-  asked.maxCycles = maxCycles;
-  checkOptions(asked);
-  refuseAutomaticTolerance(asked, "a linear solver");
-  this->Self->ownEngine().solve(b, x, { tolerance, maxCycles }, progress);
+  this->Self->ownEngine().solve(b, x, stoppingAt(tolerance, maxCycles), progress);
   return this->report();
 }
 
@@ -102,7 +140,58 @@ void LinearSolver::multiply(std::span<const double> x, std::span<double> y)
 
 const Report& LinearSolver::report() const
 {
-  return this->Self->engine.report();
+  return this->Self->engine().report();
+}
+
+struct SystemOnDisk::Implementation : OwnEngine
+{
+  using OwnEngine::OwnEngine;
+};
+
+SystemOnDisk::SystemOnDisk(MeshSource& mesh, Problem& problem, const SolveOptions& options)
+  : Self(given<Implementation>(mesh, problem, onDiskOptions(options)))
+{
+}
+
+SystemOnDisk::SystemOnDisk(const StoredMesh& mesh, const ProblemDescription& problem,
+  const SolveOptions& options, const std::string& name)
+  : Self(described<Implementation>(mesh, problem, onDiskOptions(options), name))
+{
+}
+
+SystemOnDisk::~SystemOnDisk() = default;
+SystemOnDisk::SystemOnDisk(SystemOnDisk&& other) noexcept = default;
+SystemOnDisk& SystemOnDisk::operator=(SystemOnDisk&& other) noexcept = default;
+
+std::int64_t SystemOnDisk::vertices() const
+{
+  return this->Self->engine().vertices();
+}
+
+int SystemOnDisk::columns() const
+{
+  return this->Self->engine().columns();
+}
+
+const Report& SystemOnDisk::solve(std::int64_t columns, const GivenVectors& give,
+  const TakenVectors& take, double tolerance, int maxCycles, const ProgressFunction& progress)
+{
+  require(columns >= 1, "at least one right-hand side is needed");
+  this->Self->ownEngine().solve(
+    { columns, give, take }, stoppingAt(tolerance, maxCycles), progress);
+  return this->report();
+}
+
+const Report& SystemOnDisk::solve(std::span<const double> b, std::span<double> x, double tolerance,
+  int maxCycles, const ProgressFunction& progress)
+{
+  this->Self->ownEngine().solve(b, x, stoppingAt(tolerance, maxCycles), progress);
+  return this->report();
+}
+
+const Report& SystemOnDisk::report() const
+{
+  return this->Self->engine().report();
 }
 
 } // namespace smg

@@ -44,7 +44,7 @@ extern "C"
   typedef struct smg_mesh smg_mesh;     /* a mesh, on disk */
   typedef struct smg_field smg_field;   /* what a job found: values at the vertices, on disk */
   typedef struct smg_blocks smg_blocks; /* a mesh or a field, block after block */
-  typedef struct smg_solver smg_solver; /* equations with their hierarchy, in memory */
+  typedef struct smg_solver smg_solver; /* equations with their hierarchy */
 
   typedef enum smg_status
   {
@@ -271,22 +271,25 @@ extern "C"
   /* 1 at vertices that an earlier block has, too, else 0 (uint8), likewise. */
   SMG_C_EXPORT smg_status smg_block_ghosts(smg_blocks* blocks, smg_array* ghosts);
 
-  /* The equations A x = b of a problem ("problem") with their hierarchy, in memory: A is the
-   * stiffness with screening, Robin and soft terms. Rows of vectors are vertices in the original
-   * order. At fixed vertices, which have a Dirichlet condition, or no cell with a weight, the rows
-   * of A are those of the identity; rows of others have entries for fixed neighbours, and the part
-   * of A on the others is symmetric. So b has the load of each free vertex and the value of each
-   * fixed one; sources, fluxes and values of the problem have no part in it. options: "problem",
-   * "sweeps", "memory", "threads". */
+  /* The equations A x = b of a problem ("problem") with their hierarchy, in memory or, with
+   * "on_disk", on scratch files within the memory limit, where it neither multiplies nor
+   * preconditions, and is solved without copies of the vectors: A is the stiffness with screening,
+   * Robin and soft terms. Rows of vectors are vertices in the original order. At fixed vertices,
+   * which have a Dirichlet condition, or no cell with a weight, the rows of A are those of the
+   * identity; rows of others have entries for fixed neighbours, and the part of A on the others is
+   * symmetric. So b has the load of each free vertex and the value of each fixed one; sources,
+   * fluxes and values of the problem have no part in it. options: "problem", "sweeps", "memory",
+   * "threads", "on_disk" (false by default). */
   SMG_C_EXPORT smg_status smg_open_solver(
     smg_mesh* mesh, const char* options, smg_progress progress, void* user, smg_solver** solver);
 
   /* Solves A x = b for all columns of b, as many together as the problem has, beginning with what
    * `x` has (C-contiguous, of the shape of b; it must not overlap b, and is unchanged after an
-   * error). At fixed vertices x = b. On a component without any condition, where A is singular, the
-   * mean is taken from b, and x keeps its mean. options: "tolerance" (||b - A x|| / ||b - A x_0||,
-   * 1e-8 by default), "max_cycles" (50 by default). The report is as that of a solve, with a step
-   * for each group of columns; it may be NULL, and is valid until the next call with this solver.
+   * error, but in columns that were complete if the hierarchy is on disk). At fixed vertices x = b.
+   * On a component without any condition, where A is singular, the mean is taken from b, and x
+   * keeps its mean. options: "tolerance" (||b - A x|| / ||b - A x_0||, 1e-8 by default),
+   * "max_cycles" (50 by default). The report is as that of a solve, with a step for each group of
+   * columns; it may be NULL, and is valid until the next call with this solver.
    */
   SMG_C_EXPORT smg_status smg_solver_solve(smg_solver* solver, const smg_array* b, double* x,
     const char* options, smg_progress progress, void* user, const char** report);

@@ -94,6 +94,7 @@ def solver(
     points: npt.ArrayLike,
     cells: npt.ArrayLike,
     *,
+    on_disk: bool = False,
     progress: Optional[types.Progress] = None,
     **options: Any,
 ) -> Solver:
@@ -104,6 +105,7 @@ def solver(
         options: the arguments of `smg.solve` that say what the matrix is (`conductivity`, `screening`,
             `dirichlet`, `robin`, `soft`, `weights`), and `sweeps`, `memory`, `threads`. Without a
             Dirichlet condition, screening, soft constraint or Robin condition, A is singular.
+        on_disk: keep the hierarchy on scratch files, within the limit `memory`.
 
     ::
 
@@ -114,5 +116,5 @@ def solver(
     with _opened(points, cells, options) as opened:
         of_mesh = ("scratch", "scratch_limit")
         return opened.solver(
-            progress=progress, **{k: v for k, v in options.items() if k not in of_mesh}
+            on_disk=on_disk, progress=progress, **{k: v for k, v in options.items() if k not in of_mesh}
         )

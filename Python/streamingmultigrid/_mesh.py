@@ -533,12 +533,16 @@ class Mesh:
         return selected.view(bool)
 
     @jobs.with_arguments_of("solve", jobs.OF_MATRIX)
-    def solver(self, *, progress: Optional[types.Progress] = None, **options: Any) -> Solver:
+    def solver(
+        self, *, on_disk: bool = False, progress: Optional[types.Progress] = None, **options: Any
+    ) -> Solver:
         """The equations of a problem with their hierarchy, in memory, for many right-hand sides.
 
-        The arguments are those of `solve` that say what the matrix is. See `streamingmultigrid.Solver`.
+        The arguments are those of `solve` that say what the matrix is; `on_disk=True` keeps the hierarchy
+        on scratch files, within the limit `memory`, for meshes that are too large for memory. See
+        `streamingmultigrid.Solver`.
         """
-        return Solver(self, progress, options)
+        return Solver(self, progress, {**options, "on_disk": on_disk})
 
     def to_pyvista(self) -> Any:
         """The mesh with its columns as a pyvista.PolyData or UnstructuredGrid, all in memory."""

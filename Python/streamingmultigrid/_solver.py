@@ -48,7 +48,7 @@ class Solver:
     def __init__(self, mesh: Any, progress: Any, options: Mapping[str, Any]) -> None:
         own = {
             name: options[name]
-            for name in ("memory", "threads", "sweeps")
+            for name in ("memory", "threads", "sweeps", "on_disk")
             if options.get(name) is not None
         }
         for name in ("source", "flux", "field", "initial"):
@@ -92,6 +92,7 @@ class Solver:
         max_cycles: Optional[int] = None,
         progress: Optional[types.Progress] = None,
         strict: bool = False,
+        out: Optional[np.ndarray] = None,
     ) -> np.ndarray:
         """Solves A x = b.
 
@@ -103,19 +104,28 @@ class Solver:
                 of all together.
             progress: a function of the part that is done, a bar of tqdm or rich, or True.
             strict: raise NotConverged instead of a warning NotConvergedWarning.
+            out: an array for x, C-contiguous float64 of the shape of b, as a `numpy.memmap`; default a new
+                one. With a hierarchy on disk, b and out may be larger than the memory.
 
         Returns:
-            x, of the shape of b, float64.
+            x, of the shape of b, float64; `out` if that is given.
         """
         right = vector(b, "b", self.shape[0])
         if not right.size:
             raise InputError("b: the shape is %s: there is no right-hand side." % (right.shape,))
-        if x0 is None:
-            x = np.zeros(right.shape)
-        else:
-            x = np.array(numbers(x0, "x0"), np.float64, order="C")
-            if x.shape != right.shape:
-                raise InputError("x0: the shape is %s; that of b is %s." % (x.shape, right.shape))
+        x = np.zeros(right.shape) if out is None else out
+        fits = isinstance(x, np.ndarray) and x.flags.c_contiguous and x.flags.writeable
+        if not fits or x.shape != right.shape or x.dtype != np.float64:
+            raise InputError(
+                "out: must be a C-contiguous array of float64 of the shape of b, %s." % (right.shape,)
+            )
+        if np.may_share_memory(x, right):
+            raise InputError("out: shares memory with b.")
+        start = np.zeros(()) if x0 is None else numbers(x0, "x0")
+        if x0 is not None and start.shape != right.shape:
+            raise InputError("x0: the shape is %s; that of b is %s." % (start.shape, right.shape))
+        if x is not start:
+            x[...] = start
         options: Dict[str, Any] = {"tolerance": tol, "max_cycles": max_cycles}
         result = c_char_p()
         with reporting(progress, "solve") as report, self._handle as solver:

@@ -43,6 +43,8 @@ public:
     return block;
   }
 
+  void clear() { this->Blocks.clear(); }
+
 private:
   std::deque<Block> Blocks;
   std::size_t Taken = 0; // since fill()

@@ -2,6 +2,8 @@
 """Solutions and solvers against SciPy's direct solve."""
 
 import inspect
+import os
+import tempfile
 import unittest
 
 from testing import bits, cube, need, np, smg, sphere, stiffness_and_mass
@@ -69,6 +71,34 @@ class SolverTest(unittest.TestCase):
         # From the solution it has nothing to do.
         again = self.solver.solve(self.b, x0=expected, tol=0.5)
         self.assertLess(np.abs(again - expected).max(), 3e-9 * np.ptp(expected))
+
+    def test_on_disk(self):
+        with tempfile.TemporaryDirectory() as folder:
+            mesh = smg.mesh(POINTS, TRIANGLES)
+            solver = mesh.solver(
+                screening=2, dirichlet=smg.mask(HELD) >> 0, on_disk=True, memory="32MB", threads=1)
+            expected = self.solver.solve(self.b, tol=1e-11)
+            for _ in range(2):
+                self.assertEqual(bits(solver.solve(self.b, tol=1e-11)), bits(expected))
+            # Vectors in files, and a warm start from what the file has.
+            path = os.path.join(folder, "x.bin")
+            x = np.memmap(path, np.float64, mode="w+", shape=(len(POINTS),))
+            b = np.ascontiguousarray(self.b[:, 0])
+            self.assertIs(solver.solve(b, out=x, tol=1e-11), x)
+            x.flush()
+            found = np.fromfile(path)
+            np.testing.assert_array_equal(found, self.solver.solve(b, tol=1e-11))
+            cycles = solver.report["cycles"]
+            solver.solve(b, x0=x, out=x, tol=1e-1)
+            self.assertLess(solver.report["cycles"], cycles)
+            for call in (
+                lambda: solver.multiply(b), lambda: solver.precondition(b),
+                lambda: solver.solve(b, out=b), lambda: solver.solve(b, out=np.zeros(3)),
+                lambda: solver.solve(b, out=[0.0]), lambda: solver.solve(np.where(HELD, np.nan, b)),
+            ):
+                self.assertRaises(smg.InputError, call)
+            np.testing.assert_array_equal(solver.solve(b, tol=1e-11), found)
+            del x
 
     def test_preconditioner(self):
         iterations = []

@@ -14,51 +14,6 @@
 
 namespace smg::testing
 {
-namespace
-{
-
-ArrayProblem posed(const StreamMesh& mesh, int columns, Weights weights, bool isScreened)
-{
-  ArrayProblem problem = heldEnds(mesh, columns, weights);
-  problem.Screening = isScreened ? 50.0 : 0.0;
-  problem.Source = randomNumbers(columns * mesh.vertices(), 3);
-  return problem;
-}
-
-SolveOptions inCore(double tolerance = 1e-8)
-{
-  SolveOptions options = accurate(tolerance);
-  options.inCore = true;
-  options.coreNodes = 500; // so that there are levels in passes, and one that is iterated
-  return options;
-}
-
-/** Expects the bits of solve(), with the same residuals. */
-void expectSame(
-  LinearSolver& solver, const StreamMesh& mesh, ArrayProblem problem, double tolerance)
-{
-  const Solved expected = solveMesh(mesh, problem, inCore(tolerance));
-  Sides sides = sidesOf(mesh, problem);
-  const Report& report = solver.solve(sides.b, sides.x, tolerance);
-  EXPECT_TRUE(sameBits(tableOf(sides.x, mesh.vertices()), expected.values));
-  EXPECT_EQ(report.residuals, expected.report.residuals);
-  EXPECT_EQ(report.passes, expected.report.passes);
-  EXPECT_EQ(report.cycles, expected.report.cycles);
-  EXPECT_EQ(report.converged, expected.report.converged);
-  EXPECT_EQ(report.acceleration, expected.report.acceleration);
-  EXPECT_EQ(report.removed_source, expected.report.removed_source);
-  EXPECT_EQ(report.notes, expected.report.notes);
-  EXPECT_EQ(report.seconds.build, 0.0);
-}
-
-std::vector<StreamMesh> solverMeshes()
-{
-  return { toStream(torus(90, 45, 0.3)), toStream(tetBox(12, 11, 10, 0.15)),
-    toStream(gridWithNeedle(40, 30, 1e-4)) };
-}
-
-} // namespace
-
 TEST(LinearSolver, HasTheBitsOfSolveWhateverWasSolvedBefore)
 {
   Combinations chosen;
@@ -76,20 +31,20 @@ TEST(LinearSolver, HasTheBitsOfSolveWhateverWasSolvedBefore)
           }
           ArrayProblem problem = posed(mesh, columns, weights, isScreened);
           MemorySource source(mesh);
-          LinearSolver solver(source, problem, inCore());
+          LinearSolver solver(source, problem, solverOptions());
           EXPECT_EQ(solver.columns(), columns);
           EXPECT_EQ(solver.vertices(), mesh.vertices());
           EXPECT_GT(solver.report().seconds.build, 0.0);
-          expectSame(solver, mesh, problem, 1e-8);
+          expectSame(solver, mesh, problem, solverOptions(), 1e-8);
           // Other values, sources, and initial values; another tolerance; then the first ones
           // again.
           ArrayProblem other = problem;
           other.Value = randomNumbers(columns * mesh.vertices(), 5);
           other.Source = randomNumbers(columns * mesh.vertices(), 6);
-          expectSame(solver, mesh, other, 1e-11);
+          expectSame(solver, mesh, other, solverOptions(), 1e-11);
           preconditioned(solver, other.Value);
           product(solver, other.Source);
-          expectSame(solver, mesh, problem, 1e-8);
+          expectSame(solver, mesh, problem, solverOptions(), 1e-8);
         }
       }
     }
@@ -112,10 +67,10 @@ TEST(LinearSolver, TreatsFreeComponentsAsSolveDoes)
       problem.Source = randomNumbers(columns * mesh.vertices(), 1);
       problem.Value = randomNumbers(columns * mesh.vertices(), 2);
       MemorySource source(mesh);
-      LinearSolver solver(source, problem, inCore());
+      LinearSolver solver(source, problem, solverOptions());
       for (int k = 0; k < 2; ++k)
       {
-        expectSame(solver, mesh, problem, 1e-9);
+        expectSame(solver, mesh, problem, solverOptions(), 1e-9);
         EXPECT_FALSE(solver.report().removed_source.empty());
       }
     }
@@ -130,7 +85,7 @@ TEST(LinearSolver, DoesNotDependOnThreads)
   Numbers expected;
   for (const int threads : { 1, 2, 5 })
   {
-    SolveOptions options = inCore();
+    SolveOptions options = solverOptions();
     options.threads = threads;
     options.blockNodes = 700;
     MemorySource source(mesh, 50 * threads);
@@ -174,8 +129,8 @@ TEST(LinearSolver, EndsAsSolveDoesFarFromZero)
     problem.Value[i] += problem.Prescribed[i / 3] ? 1e3 : 0.0;
   }
   MemorySource source(mesh);
-  LinearSolver solver(source, problem, inCore());
-  expectSame(solver, mesh, problem, 1e-8);
+  LinearSolver solver(source, problem, solverOptions());
+  expectSame(solver, mesh, problem, solverOptions(), 1e-8);
 }
 
 TEST(LinearSolver, MultipliesAsTheReportCountsResiduals)
@@ -185,7 +140,7 @@ TEST(LinearSolver, MultipliesAsTheReportCountsResiduals)
     // Without screening, and with regular cells, all rows count alike.
     ArrayProblem problem = posed(mesh, 2, Weights::Cotangent, false);
     MemorySource source(mesh);
-    LinearSolver solver(source, problem, inCore());
+    LinearSolver solver(source, problem, solverOptions());
     Sides sides = sidesOf(mesh, problem);
     // At the fixed vertices the first guess is b.
     const double first = normOf(residualOf(solver, sides.b, sides.x));
@@ -212,7 +167,7 @@ TEST(LinearSolver, SolvesAnyNumberOfColumns)
   const auto vertices = static_cast<std::size_t>(mesh.vertices());
   ArrayProblem problem = posed(mesh, 2, Weights::Cotangent, false);
   MemorySource source(mesh);
-  LinearSolver solver(source, problem, inCore());
+  LinearSolver solver(source, problem, solverOptions());
   const Numbers b = randomNumbers(5 * mesh.vertices(), 11);
   const Numbers start = randomNumbers(5 * mesh.vertices(), 12);
   Numbers all = start;
@@ -304,7 +259,7 @@ TEST(LinearSolver, IsRightAgainAfterASolveThatWasCancelledAnywhere)
   const StreamMesh mesh = toStream(torus(60, 30, 0.3));
   ArrayProblem problem = posed(mesh, 1, Weights::Cotangent, false);
   const Sides sides = sidesOf(mesh, problem);
-  SolveOptions options = inCore();
+  SolveOptions options = solverOptions();
   options.blockNodes = 100;
   MemorySource source(mesh);
   LinearSolver solver(source, problem, options);
@@ -335,7 +290,7 @@ TEST(LinearSolver, ReportsTheProgressOfBuilding)
   const StreamMesh mesh = toStream(torus(200, 100));
   ArrayProblem problem = posed(mesh, 1, Weights::Cotangent, false);
   ProgressRecord record;
-  SolveOptions options = inCore();
+  SolveOptions options = solverOptions();
   options.progress = record.function();
   MemorySource source(mesh, 100);
   const LinearSolver solver(source, problem, options);

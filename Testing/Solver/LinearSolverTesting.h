@@ -6,6 +6,8 @@
 #include "Testing/Solver/SolveTesting.h"
 #include "smg/LinearSolver.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -123,6 +125,48 @@ inline Numbers residualOf(LinearSolver& solver, const Numbers& b, const Numbers&
   Numbers r = product(solver, x);
   std::ranges::transform(b, r, r.begin(), std::minus());
   return r;
+}
+
+inline ArrayProblem posed(const StreamMesh& mesh, int columns, Weights weights, bool isScreened)
+{
+  ArrayProblem problem = heldEnds(mesh, columns, weights);
+  problem.Screening = isScreened ? 50.0 : 0.0;
+  problem.Source = randomNumbers(columns * mesh.vertices(), 3);
+  return problem;
+}
+
+inline SolveOptions solverOptions(double tolerance = 1e-8)
+{
+  SolveOptions options = accurate(tolerance);
+  options.inCore = true;
+  options.coreNodes = 500; // so that there are levels in passes, and one that is iterated
+  return options;
+}
+
+/** Expects the bits of solve(), with the same residuals, of a LinearSolver or a SystemOnDisk. */
+template <class Solver>
+void expectSame(Solver& solver, const StreamMesh& mesh, ArrayProblem problem, SolveOptions options,
+  double tolerance)
+{
+  options.tolerance = tolerance;
+  const Solved expected = solveMesh(mesh, problem, options);
+  Sides sides = sidesOf(mesh, problem);
+  const Report& report = solver.solve(sides.b, sides.x, tolerance);
+  EXPECT_TRUE(sameBits(tableOf(sides.x, mesh.vertices()), expected.values));
+  EXPECT_EQ(report.residuals, expected.report.residuals);
+  EXPECT_EQ(report.passes, expected.report.passes);
+  EXPECT_EQ(report.cycles, expected.report.cycles);
+  EXPECT_EQ(report.converged, expected.report.converged);
+  EXPECT_EQ(report.acceleration, expected.report.acceleration);
+  EXPECT_EQ(report.removed_source, expected.report.removed_source);
+  EXPECT_EQ(report.notes, expected.report.notes);
+  EXPECT_EQ(report.seconds.build, 0.0);
+}
+
+inline std::vector<StreamMesh> solverMeshes()
+{
+  return { toStream(torus(90, 45, 0.3)), toStream(tetBox(12, 11, 10, 0.15)),
+    toStream(gridWithNeedle(40, 30, 1e-4)) };
 }
 
 } // namespace smg::testing

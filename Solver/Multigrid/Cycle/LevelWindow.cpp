@@ -102,6 +102,25 @@ void LevelWindow<Real>::endPass()
 }
 
 template <class Real>
+void LevelWindow<Real>::abandon()
+{
+  this->Next.reset();
+  this->WrittenColumns = this->Columns;
+  if (!this->Rows)
+  {
+    return;
+  }
+  this->Resident->add(this->Now.x.first() - this->Now.x.end());
+  this->Ahead.clear();
+  this->Packages.clear();
+  this->Blocks.clear();
+  this->Passed.clear();
+  this->Now.x.restart();
+  this->Now.b.restart();
+  this->CachedBlock = -1;
+}
+
+template <class Real>
 void LevelWindow<Real>::append(RowBlock block)
 {
   // What exists already stays: on the finest level the state that came with the rows, on coarse

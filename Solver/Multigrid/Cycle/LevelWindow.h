@@ -177,8 +177,9 @@ public:
   void renew(int columns, bool separate);
   /** Whether the downward part of this pass has a separate state. */
   bool isSeparate() const { return this->Next.has_value(); }
-  /** Without scratch files: discards the separate state of an aborted pass. */
-  void abandon() { this->Next.reset(); }
+  /** Discards what an aborted pass has left; the state is that of the pass before, but in memory,
+   * where it may be anything. */
+  void abandon();
   /** Without scratch files, between passes: sets the number of columns of the state. */
   void setColumns(int columns) { this->Columns = this->WrittenColumns = columns; }
 

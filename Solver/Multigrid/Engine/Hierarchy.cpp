@@ -195,6 +195,15 @@ void Hierarchy::renew(int columns)
   }
 }
 
+void Hierarchy::abandon()
+{
+  this->window().abandon();
+  for (auto& level : this->Storage.coarse)
+  {
+    level->window().abandon();
+  }
+}
+
 void Hierarchy::save(StateWriter& state)
 {
   state.part("hierarchy");

@@ -65,6 +65,8 @@ public:
   /** The next pass ends one problem and begins another with this number of columns, see
    * LevelWindow::renew(). */
   void renew(int columns);
+  /** After an exception in a pass: a further system may begin. */
+  void abandon();
 
   /** Between passes: saves the levels. */
   void save(StateWriter& state);

@@ -42,6 +42,10 @@ LinearEngine::LinearEngine(CompiledOperators operators, int columns, const Solve
   , Context(this->System.context())
   , Records(this->Context.pool, KeptRowSums::None)
 {
+  if (this->Context.scratch)
+  {
+    this->Records.useScratch(*this->Context.scratch, this->Context.traffic);
+  }
 }
 
 void LinearEngine::build(MeshSource& mesh, Problem& problem)
@@ -63,9 +67,8 @@ std::string LinearEngine::Group::name() const
                           : "columns " + from + " to " + std::to_string(this->first + this->count);
 }
 
-/** Calls f(group) for the columns of two vectors, as many at a time as the levels have. */
-template <class F>
-void LinearEngine::forGroups(std::span<const double> in, std::span<const double> out, F&& f)
+/** The numbers of a vertex in two vectors. Throws Error unless they have as many for each. */
+std::size_t LinearEngine::columnsOf(std::span<const double> in, std::span<const double> out) const
 {
   const auto vertices = static_cast<std::size_t>(this->vertices());
   if (in.size() != out.size() || in.empty() || in.size() % vertices != 0)
@@ -74,7 +77,14 @@ void LinearEngine::forGroups(std::span<const double> in, std::span<const double>
                 " vertices are needed, but there are " + std::to_string(in.size()) + " and " +
                 std::to_string(out.size()) + " numbers");
   }
-  const std::size_t all = in.size() / vertices, most = static_cast<std::size_t>(this->Columns);
+  return in.size() / vertices;
+}
+
+/** Calls f(group) for `all` columns, as many at a time as the levels have. */
+template <class F>
+void LinearEngine::forGroups(std::size_t all, F&& f)
+{
+  const auto most = static_cast<std::size_t>(this->Columns);
   for (std::size_t first = 0; first < all; first += most)
   {
     f(Group{ first, std::min(most, all - first), all });
@@ -84,9 +94,10 @@ void LinearEngine::forGroups(std::span<const double> in, std::span<const double>
 namespace
 {
 
-/** Throws Error if a number of the columns [first, first + count) of `all` is not finite. */
+/** Throws Error if a number of the columns [first, first + count) of `all` is not finite; the
+ * values begin with those of a vertex of the stream. */
 void checkFinite(std::span<const double> values, std::size_t first, std::size_t count,
-  std::size_t all, const char* what)
+  std::size_t all, const char* what, std::int64_t vertex = 0)
 {
   for (std::size_t i = 0; i * all < values.size(); ++i)
   {
@@ -95,7 +106,7 @@ void checkFinite(std::span<const double> values, std::size_t first, std::size_t 
       if (!std::isfinite(value))
       {
         throw Error(std::string(what) + " has a number that is not finite at vertex " +
-                    std::to_string(i) + " of the stream");
+                    std::to_string(vertex + static_cast<std::int64_t>(i)) + " of the stream");
       }
     }
   }
@@ -135,26 +146,54 @@ void LinearEngine::store(
 void LinearEngine::solve(std::span<const double> b, std::span<double> x, const Stopping& stopping,
   const ProgressFunction& progress)
 {
+  const auto all = static_cast<std::int64_t>(this->columnsOf(b, x));
+  // Calls f(place in a block, place in a vector) for its vertices.
+  const auto forVertices = [all](const VectorBlock& block, auto&& f)
+  {
+    for (std::int64_t i = 0; i < block.count; ++i)
+    {
+      f(i * block.columns, (block.first + i) * all + block.column);
+    }
+  };
+  const auto give = [&](
+                      const VectorBlock& block, std::span<double> right, std::span<double> initial)
+  {
+    forVertices(block,
+      [&](std::int64_t to, std::int64_t from)
+      {
+        std::copy_n(b.begin() + from, block.columns, right.begin() + to);
+        std::copy_n(x.begin() + from, block.columns, initial.begin() + to);
+      });
+  };
+  const auto take = [&](const VectorBlock& block, std::span<const double> solution)
+  {
+    forVertices(block, [&](std::int64_t from, std::int64_t to)
+      { std::copy_n(solution.begin() + from, block.columns, x.begin() + to); });
+  };
+  this->solve({ all, give, take }, stopping, progress);
+}
+
+void LinearEngine::solve(
+  const LinearVectors& vectors, const Stopping& stopping, const ProgressFunction& progress)
+{
   this->Context.progress = SolveProgress(progress);
   this->Context.beginAgain();
   Report& r = this->Context.report;
   r.converged = true;
   r.relative_to = BestConstant;
   std::vector<double> removed;
-  this->forGroups(b, x,
+  this->forGroups(static_cast<std::size_t>(vectors.columns),
     [&](const Group& group)
     {
-      checkFinite(b, group.first, group.count, group.all, "the right-hand side");
-      checkFinite(x, group.first, group.count, group.all, "the initial guess");
       const auto share = [&](std::size_t columns)
       { return static_cast<double>(columns) / static_cast<double>(group.all); };
       this->Context.progress.begin(
         stopping, share(group.first), share(group.first + group.count), false);
-      this->solve(group, b, x, stopping);
+      this->solve(group, vectors, stopping);
       std::vector<double> taken = std::exchange(r.removed_source, {});
       taken.resize(group.count);
       removed.insert(removed.end(), taken.begin(), taken.end());
-      this->read(group, x);
+      this->take(group, vectors);
     });
   if (std::ranges::any_of(removed, [](double sum) { return sum != 0.0; }))
   {
@@ -175,46 +214,49 @@ void LinearEngine::solve(std::span<const double> b, std::span<double> x, const S
 namespace
 {
 
-/** Columns of vectors that a program gives; the columns that are missing are zero. */
-class GivenVectors final : public SystemValues
+/** The columns of a group as a system; the columns that it lacks are zero. */
+class GroupValues final : public SystemValues
 {
 public:
-  /** `right`, `initial`: from the first number of the first column on, `all` numbers per vertex. */
-  GivenVectors(const double* right, const double* initial, std::size_t all, std::size_t count)
-    : Right(right)
-    , Initial(initial)
-    , All(all)
-    , Count(count)
+  GroupValues(const GivenVectors& give, std::size_t first, std::size_t count)
+    : Give(give)
+    , First(static_cast<std::int64_t>(first))
+    , Count(static_cast<std::int64_t>(count))
   {
   }
 
   void give(const SystemRecord& /*record*/, std::int64_t first, std::int64_t count,
     std::span<const double> /*before*/, std::span<double> x, std::span<double> b) override
   {
-    const std::size_t columns = b.size() / static_cast<std::size_t>(count);
+    const std::int64_t columns = static_cast<std::int64_t>(b.size()) / count;
+    this->X.assign(static_cast<std::size_t>(count * this->Count), 0.0);
+    this->B = this->X;
+    this->Give({ first, count, this->First, this->Count }, this->B, this->X);
+    const auto all = static_cast<std::size_t>(this->Count);
+    checkFinite(this->B, 0, all, all, "the right-hand side", first);
+    checkFinite(this->X, 0, all, all, "the initial guess", first);
     std::ranges::fill(x, 0.0);
-    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
+    for (std::int64_t i = 0; i < count; ++i)
     {
-      const std::size_t from = (static_cast<std::size_t>(first) + k) * this->All;
-      std::copy_n(this->Initial + from, this->Count, x.data() + k * columns);
-      std::copy_n(this->Right + from, this->Count, b.data() + k * columns);
+      std::copy_n(this->X.begin() + i * this->Count, this->Count, x.begin() + i * columns);
+      std::copy_n(this->B.begin() + i * this->Count, this->Count, b.begin() + i * columns);
     }
   }
 
 private:
-  const double *Right, *Initial;
-  std::size_t All, Count;
+  const GivenVectors& Give;
+  std::int64_t First, Count;
+  std::vector<double> X, B;
 };
 
 } // namespace
 
-void LinearEngine::solve(
-  const Group& group, std::span<const double> b, std::span<double> x, const Stopping& stopping)
+void LinearEngine::solve(const Group& group, const LinearVectors& vectors, const Stopping& stopping)
 {
   Convergence convergence(stopping, {});
   Iteration iteration(this->Context, this->System.levels(), convergence);
-  GivenVectors vectors(b.data() + group.first, x.data() + group.first, group.all, group.count);
-  GivenSystem next(this->Context, this->Records, this->System.window(), vectors, this->Columns);
+  GroupValues values(vectors.give, group.first, group.count);
+  GivenSystem next(this->Context, this->Records, this->System.window(), values, this->Columns);
   this->System.restart(next);
   const ColumnResiduals columns = next.residual(this->System.levels());
   this->Context.scales = ColumnScales(columns.references, this->VectorSize);
@@ -231,30 +273,26 @@ void LinearEngine::solve(
   this->Context.free.fix(this->System.window(), r);
 }
 
-/** Stores the solution, with what the equations leave open. */
-void LinearEngine::read(const Group& group, std::span<double> x)
+/** Gives the solution, with what the equations leave open. */
+void LinearEngine::take(const Group& group, const LinearVectors& vectors)
 {
-  const Ring<double>& solved = this->System.window().x();
-  std::vector<double> values(static_cast<std::size_t>(this->Columns));
-  if (this->Context.components.floatingComponents() == 0)
+  const auto count = static_cast<std::int64_t>(group.count);
+  std::vector<double> values, taken;
+  for (std::int64_t first = 0; first < this->vertices(); first += RowBlock::Nodes)
   {
-    this->store(solved, 1.0, group, x);
-    return;
-  }
-  for (std::int64_t i = 0; i < this->vertices(); ++i)
-  {
-    std::copy_n(solved.at(i), values.size(), values.begin());
-    this->Context.free.complete(i, 1, values);
-    std::copy_n(values.begin(), group.count,
-      x.begin() +
-        static_cast<std::ptrdiff_t>(static_cast<std::size_t>(i) * group.all + group.first));
+    const std::int64_t n = std::min(RowBlock::Nodes, this->vertices() - first);
+    values.resize(static_cast<std::size_t>(n * this->Columns));
+    taken.resize(static_cast<std::size_t>(n * count));
+    this->Context.readCompleted(this->System.window(), first, n, values);
+    unpad(values.data(), this->Columns, static_cast<int>(count), n, taken.data());
+    vectors.take({ first, n, static_cast<std::int64_t>(group.first), count }, taken);
   }
 }
 
 void LinearEngine::precondition(std::span<const double> r, std::span<double> z)
 {
   LevelWindow<double>& window = this->System.window();
-  this->forGroups(r, z,
+  this->forGroups(this->columnsOf(r, z),
     [&](const Group& group)
     {
       this->load(r, group, "the residual", window.b());
@@ -286,7 +324,7 @@ void LinearEngine::addKnown(LevelWindow<double>& window)
 void LinearEngine::multiply(std::span<const double> x, std::span<double> y)
 {
   LevelWindow<double>& window = this->System.window();
-  this->forGroups(x, y,
+  this->forGroups(this->columnsOf(x, y),
     [&](const Group& group)
     {
       this->load(x, group, "the vector", window.x());

@@ -4,6 +4,7 @@
 #include "Solver/Multigrid/Engine/Convergence.h"
 #include "Solver/Multigrid/Engine/StreamedSystem.h"
 #include "Solver/Multigrid/Engine/SystemRecords.h"
+#include "smg/LinearSolver.h"
 #include "smg/Solve.h"
 
 #include <cstdint>
@@ -13,13 +14,20 @@
 namespace smg
 {
 
-/** The equations of a problem in core, solved for one right-hand side after the other: LinearSolver
- * documents what each function does. Of the first pass, rows, hierarchy and factor are kept; x and
- * b begin anew with each call. */
+/** Columns of vectors that somebody gives and takes. */
+struct LinearVectors
+{
+  std::int64_t columns; ///< of all vectors
+  GivenVectors give;
+  TakenVectors take;
+};
+
+/** The equations of a problem, solved for one right-hand side after the other: LinearSolver and
+ * SystemOnDisk document what each function does. Of the first pass, rows, hierarchy and factor are
+ * kept, in memory or on scratch files; x and b begin anew with each call. */
 class LinearEngine
 {
 public:
-  /** `options` must be those of a solve in core. */
   LinearEngine(CompiledOperators operators, int columns, const SolveOptions& options);
 
   LinearEngine(const LinearEngine&) = delete;
@@ -27,8 +35,11 @@ public:
 
   /** The first pass; to be called once, before all others. */
   void build(MeshSource& mesh, Problem& problem);
+  void solve(
+    const LinearVectors& vectors, const Stopping& stopping, const ProgressFunction& progress);
   void solve(std::span<const double> b, std::span<double> x, const Stopping& stopping,
     const ProgressFunction& progress);
+  // In core:
   void precondition(std::span<const double> r, std::span<double> z);
   void multiply(std::span<const double> x, std::span<double> y);
 
@@ -46,13 +57,13 @@ private:
     std::string name() const;
   };
 
+  std::size_t columnsOf(std::span<const double> in, std::span<const double> out) const;
   template <class F>
-  void forGroups(std::span<const double> in, std::span<const double> out, F&& f);
+  void forGroups(std::size_t all, F&& f);
   void load(std::span<const double> values, const Group& group, const char* what, Ring<double>& to);
   void store(const Ring<double>& from, double factor, const Group& group, std::span<double> values);
-  void solve(
-    const Group& group, std::span<const double> b, std::span<double> x, const Stopping& stopping);
-  void read(const Group& group, std::span<double> x);
+  void solve(const Group& group, const LinearVectors& vectors, const Stopping& stopping);
+  void take(const Group& group, const LinearVectors& vectors);
   void addKnown(LevelWindow<double>& window);
 
   int Columns;

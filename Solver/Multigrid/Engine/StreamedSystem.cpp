@@ -35,9 +35,12 @@ double StreamedSystem::advance(NextSystem& next)
 
 double StreamedSystem::restart(NextSystem& next)
 {
+  this->Levels.abandon();
+  if (this->Context->scratch)
+  {
+    return this->advance(next);
+  }
   LevelWindow<double>& window = this->window();
-  // Of a pass that an exception has ended.
-  window.abandon();
   window.setColumns(next.columns());
   next.startPass();
   next.load();

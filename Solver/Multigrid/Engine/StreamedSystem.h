@@ -35,7 +35,8 @@ public:
   /** The pass that finishes the last V-cycle of the present system and begins the first one of the
    * next. Returns the norm of its residual after the first sweeps. */
   double advance(NextSystem& next);
-  /** In core: begins the first V-cycle of the next system; the present one is given up. */
+  /** Begins the first V-cycle of the next system; the present one is given up, and may be anything
+   * that an exception has left. Returns that norm. */
   double restart(NextSystem& next);
   /** Returns the values of the present system, and releases everything else. */
   std::unique_ptr<StreamedSolution> takeSolution();

@@ -9,12 +9,29 @@
 #include "smg/Solve.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
 
 namespace smg
 {
+
+/** Some vertices and columns of vectors. */
+struct VectorBlock
+{
+  std::int64_t first;   ///< the first vertex, by its stream index
+  std::int64_t count;   ///< the number of vertices
+  std::int64_t column;  ///< the first column
+  std::int64_t columns; ///< the number of columns
+};
+
+/** Sets right-hand sides `b` and initial values `x` of a block, both 0 when it is called: `columns`
+ * numbers for each vertex, side by side. Blocks come in ascending order. */
+using GivenVectors =
+  std::function<void(const VectorBlock& block, std::span<double> b, std::span<double> x)>;
+/** Takes the solution of a block, in the same way. */
+using TakenVectors = std::function<void(const VectorBlock& block, std::span<const double> x)>;
 
 /**
  * The equations A x = b of a problem with their hierarchy, in memory: built once, solved for one
@@ -104,6 +121,66 @@ public:
    * @throws Error as solve()
    */
   void multiply(std::span<const double> x, std::span<double> y);
+
+  /** The report of the last solve; before the first one that of building. */
+  const Report& report() const;
+
+private:
+  struct Implementation;
+  std::unique_ptr<Implementation> Self;
+};
+
+/**
+ * The equations A x = b of a LinearSolver with their hierarchy on scratch files, within a memory
+ * limit, for meshes that are too large for memory: built once, solved for one right-hand side after
+ * the other. A solve with k V-cycles takes k + 1 passes over the scratch files, which stay as long
+ * as the object; the mesh is not read again.
+ *
+ * One thread may use it at a time, of the process that has made it.
+ */
+class SMG_EXPORT SystemOnDisk
+{
+public:
+  /**
+   * Builds matrix and hierarchy.
+   * @param mesh the stream, read once
+   * @param problem the problem, asked once for each block
+   * @param options how to solve, as for smg::solve() out of core: threads, memoryLimit, scratch and
+   * scratchLimit are those of later solves, too; there are no checkpoints
+   * @throws Error, Cancelled as smg::solve()
+   */
+  SystemOnDisk(MeshSource& mesh, Problem& problem, const SolveOptions& options = {});
+  /** The same for the problem of a description, which need not say anything. `name` is what errors
+   * call it. */
+  SystemOnDisk(const StoredMesh& mesh, const ProblemDescription& problem,
+    const SolveOptions& options = {}, const std::string& name = "problem");
+  ~SystemOnDisk();
+  /** Takes the equations of the other, which is not to be used after. */
+  SystemOnDisk(SystemOnDisk&& other) noexcept;
+  /** The same in place of those that it has. */
+  SystemOnDisk& operator=(SystemOnDisk&& other) noexcept;
+
+  /** Number of vertices of the mesh, the rows of A. */
+  std::int64_t vertices() const;
+  /** Number of columns that are solved together: those of the problem. */
+  int columns() const;
+
+  /**
+   * Solves A x = b, with the vectors a block at a time, so that they need not be in memory. The
+   * solution has the bits of smg::solve() for the same b and initial values.
+   * @param columns the number of right-hand sides, at least 1; as many as the problem has are
+   * solved together
+   * @param give called once for each vertex and group of columns; its exceptions end the solve
+   * @param take called after each group, for all vertices in ascending order
+   * @param tolerance, maxCycles, progress as for LinearSolver::solve()
+   * @return the report, valid until the next call
+   * @throws Error, Cancelled as LinearSolver::solve(); the object remains usable
+   */
+  const Report& solve(std::int64_t columns, const GivenVectors& give, const TakenVectors& take,
+    double tolerance = 1e-8, int maxCycles = 50, const ProgressFunction& progress = {});
+  /** The same for vectors in memory: see LinearSolver::solve(). */
+  const Report& solve(std::span<const double> b, std::span<double> x, double tolerance = 1e-8,
+    int maxCycles = 50, const ProgressFunction& progress = {});
 
   /** The report of the last solve; before the first one that of building. */
   const Report& report() const;
