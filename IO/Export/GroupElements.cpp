@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <map>
 #include <memory>
-#include <set>
 #include <string>
 #include <utility>
 
@@ -61,27 +61,33 @@ std::vector<std::int64_t> countSets(const VsmReader& reader, GroupOf kind)
   return counts;
 }
 
-/** Own numbers stay; groups of a name alone get the next ones. */
+/** Own numbers stay, unless another group of the kind has it, as those of points and of edges,
+ * which are both of vertices; these groups and those of a name alone get the next ones. Groups of a
+ * number alone are one if it is the same. */
 std::vector<std::int64_t> uniqueNumbers(const std::vector<Group>& groups)
 {
-  std::set<std::pair<GroupOf, std::int64_t>> taken;
-  for (const Group& group : groups)
+  std::map<std::pair<GroupOf, std::int64_t>, std::string> taken; // by the group of this label
+  for (const bool isNamed : { false, true })
   {
-    if (group.number)
+    for (const Group& group : groups)
     {
-      taken.emplace(group.of, *group.number);
+      if (group.number && group.name.empty() != isNamed)
+      {
+        taken.try_emplace({ group.of, *group.number }, group.label());
+      }
     }
   }
   std::vector<std::int64_t> numbers;
   std::array<std::int64_t, 3> next{ 1, 1, 1 };
   for (const Group& group : groups)
   {
+    const bool isOwn = group.number && taken.at({ group.of, *group.number }) == group.label();
     std::int64_t& free = next[std::size_t(group.of)];
-    while (!group.number && taken.contains({ group.of, free }))
+    while (!isOwn && taken.contains({ group.of, free }))
     {
       ++free;
     }
-    numbers.push_back(group.number ? *group.number : free++);
+    numbers.push_back(isOwn ? *group.number : free++);
   }
   return numbers;
 }

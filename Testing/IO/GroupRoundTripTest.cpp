@@ -39,14 +39,16 @@ const std::string MixedSurface =
   "$Elements\n11\n1 3 2 1 1 1 2 3 4\n2 2 2 2 2 2 5 3\n3 2 2 2 2 5 6 3\n4 1 2 1 1 1 2\n"
   "5 1 2 1 1 2 5\n6 1 2 2 2 4 1\n7 1 2 2 2 3 4\n8 1 2 3 3 2 3\n9 1 2 2 2 2 5\n"
   "10 15 2 1 1 6\n11 15 2 1 1 1\n$EndElements\n";
-/** Three tetrahedra, whose faces in groups are on the boundary and between them. */
+/** Three tetrahedra, whose faces in groups are on the boundary and between them; a point and an
+ * edge with the same number, which are both groups of vertices. */
 const std::string MixedSolid =
-  "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n5\n0 1 \"tip\"\n2 1 \"inlet\"\n"
+  "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n6\n0 1 \"tip\"\n1 1 \"rim\"\n2 1 "
+  "\"inlet\"\n"
   "2 2 \"between\"\n3 1 \"copper\"\n3 2 \"air\"\n$EndPhysicalNames\n"
   "$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 1 1\n6 2 1 2\n$EndNodes\n"
-  "$Elements\n9\n1 4 2 1 1 1 2 3 4\n2 4 2 2 2 2 3 4 5\n3 4 2 2 2 2 4 5 6\n4 2 2 1 1 1 2 3\n"
+  "$Elements\n10\n1 4 2 1 1 1 2 3 4\n2 4 2 2 2 2 3 4 5\n3 4 2 2 2 2 4 5 6\n4 2 2 1 1 1 2 3\n"
   "5 2 2 1 1 1 2 4\n6 2 2 2 2 2 3 4\n7 2 2 1 1 2 3 4\n8 2 2 2 2 4 5 6\n9 15 2 1 1 6\n"
-  "$EndElements\n";
+  "10 1 2 1 1 1 2\n$EndElements\n";
 
 /** Size and, with names, label and kind of each group, in order. */
 using GroupSizes = std::vector<std::string>;
