@@ -71,14 +71,8 @@ StreamInfo RawMeshBuilder::found(const CellTypeFound& cells) const
   StreamInfo info;
   info.cellType = cells.type;
   info.doublePositions = this->Mesh.doublePositions;
-  for (const BuiltColumn& column : this->Columns[std::size_t(ColumnOf::Vertices)])
-  {
-    info.vertexColumns.push_back(column.spec);
-  }
-  for (const BuiltColumn& column : this->Columns[std::size_t(ColumnOf::Elements)])
-  {
-    info.cellColumns.push_back(column.spec);
-  }
+  info.vertexColumns = this->specs(ColumnOf::Vertices, cells.type);
+  info.cellColumns = this->specs(ColumnOf::Elements, cells.type);
   return info;
 }
 
@@ -87,7 +81,13 @@ std::vector<RawColumn> RawMeshBuilder::finishColumns(ColumnOf of, std::int64_t t
   std::vector<RawColumn> kept;
   for (BuiltColumn& column : this->Columns[std::size_t(of)])
   {
-    if (column.isDropped)
+    const bool isOfOthers = isOfOtherCells(column.spec, of, this->Mesh.cellType);
+    if (isOfOthers)
+    {
+      this->note("The column " + inQuotes(column.spec.name) +
+                 " is left out, since it is of other cells, as of a solid that was cut.");
+    }
+    if (isOfOthers || column.isDropped)
     {
       continue;
     }

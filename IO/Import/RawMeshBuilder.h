@@ -246,6 +246,26 @@ private:
   /** Replaces the numbers of corners by those of their vertices. `what` has these corners. */
   void renumber(RecordFile<std::uint32_t>& corners, std::size_t count, const std::string& what);
   std::vector<RawColumn> finishColumns(ColumnOf of, std::int64_t tuples);
+  /** Whether a column has groups that do not go with the cells of the mesh: see
+   * MeshGroups::isOfMesh(). */
+  static bool isOfOtherCells(const ColumnSpec& spec, ColumnOf of, CellType cells)
+  {
+    return isGroupColumn(spec.name) &&
+           !MeshGroups::isOfMesh(spec, of == ColumnOf::Vertices, cornersOf(cells));
+  }
+  /** The columns that go with these cells. */
+  std::vector<ColumnSpec> specs(ColumnOf of, CellType cells) const
+  {
+    std::vector<ColumnSpec> specs;
+    for (const BuiltColumn& column : this->Columns[std::size_t(of)])
+    {
+      if (!isOfOtherCells(column.spec, of, cells))
+      {
+        specs.push_back(column.spec);
+      }
+    }
+    return specs;
+  }
 
   Workspace& Space;
   CellChoice Choice;

@@ -194,6 +194,16 @@ void PieceStream::learn(vtkPointSet& piece)
   this->Info.vertexColumns = columnSpecs(*piece.GetPointData());
   this->Info.cellColumns = columnSpecs(*piece.GetCellData());
   this->Info.groups = groupsIn(piece);
+  const auto isForeign = [this](const ColumnSpec& spec, bool ofVertices)
+  {
+    return isGroupColumn(spec.name) &&
+           (this->Info.groups.empty() ||
+             !MeshGroups::isOfMesh(spec, ofVertices, cornersOf(this->Info.cellType)));
+  };
+  std::erase_if(
+    this->Info.vertexColumns, [&](const ColumnSpec& spec) { return isForeign(spec, true); });
+  std::erase_if(
+    this->Info.cellColumns, [&](const ColumnSpec& spec) { return isForeign(spec, false); });
   if (this->Columns.all)
   {
     return;

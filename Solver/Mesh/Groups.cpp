@@ -78,6 +78,14 @@ ColumnSpec MeshGroups::columnSpec(GroupOf kind, int corners)
   return { columnOf(kind), scalarTypeOf<GroupSet>(), kind == GroupOf::Facets ? corners : 1 };
 }
 
+bool MeshGroups::isOfMesh(const ColumnSpec& column, bool ofVertices, int corners)
+{
+  const GroupOf kind = ofVertices                       ? GroupOf::Vertices
+                       : column.name == FacetGroupsName ? GroupOf::Facets
+                                                        : GroupOf::Cells;
+  return column == MeshGroups::columnSpec(kind, corners);
+}
+
 std::vector<std::uint32_t> MeshGroups::find(const std::string& wanted, GroupOf kind) const
 {
   const auto those = [this, kind](auto isWanted)

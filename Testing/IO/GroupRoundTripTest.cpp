@@ -183,6 +183,26 @@ TEST_F(GroupRoundTrip, DiagonalsOfQuadrilateralsAreNoted)
     notes, [](const std::string& note) { return note.find("diagonal") != std::string::npos; }));
 }
 
+/** A surface that was cut out of a solid has the arrays of its cells. */
+TEST_F(GroupRoundTrip, FacetsOfASolidAreLeftOutOfItsSurface)
+{
+  writeBytes(this->Folder / "in.inp", AbaqusSurface);
+  convert(this->Folder / "in.inp", this->Folder / "mesh.vsm");
+  writeFromVsm(this->Folder / "mesh.vsm", this->Folder / "a.vtk", {}, {}, true);
+  std::ifstream file(this->Folder / "a.vtk");
+  std::string text{ std::istreambuf_iterator<char>(file), {} };
+  const std::string ofFacets = "FacetGroups 3 2 ";
+  ASSERT_NE(text.find(ofFacets), std::string::npos);
+  text.replace(text.find(ofFacets), ofFacets.size(), "FacetGroups 4 2 ");
+  text += "0 0\n";
+  const ReadMesh mesh = this->read("b.vtk", text);
+  EXPECT_EQ(groupCounts(mesh), (GroupCounts{ { "cells plate", 2 }, { "vertices held", 1 } }));
+  ASSERT_EQ(mesh.counts.notes.size(), 1U);
+  EXPECT_NE(mesh.counts.notes.front().find("'FacetGroups' is left out"), std::string::npos);
+  convert(this->Folder / "b.vtk", this->Folder / "again.vsm");
+  EXPECT_EQ(groupSizes(this->Folder / "again.vsm", true).size(), 2U);
+}
+
 TEST_F(GroupRoundTrip, ArraysOfOtherGroupsAreLeftOut)
 {
   writeBytes(this->Folder / "in.inp", AbaqusSolid);

@@ -335,12 +335,9 @@ void VsmFile::checkGroups() const
     for (const ColumnSpec& column : *columns)
     {
       const bool ofVertices = columns == &this->Info.vertexColumns;
-      const GroupOf kind = ofVertices                       ? GroupOf::Vertices
-                           : column.name == FacetGroupsName ? GroupOf::Facets
-                                                            : GroupOf::Cells;
       if (isGroupColumn(column.name) &&
           (this->Info.groups.empty() ||
-            column != MeshGroups::columnSpec(kind, cornersOf(this->Info.cellType))))
+            !MeshGroups::isOfMesh(column, ofVertices, cornersOf(this->Info.cellType))))
       {
         this->fail(
           "has a column '" + column.name + "' that does not go with its groups; make it anew.");

@@ -160,12 +160,9 @@ private:
   /** Whether an array is one of groups that goes with those of the file. */
   bool isOfGroups(const VtkArray& array, bool ofPoints) const
   {
-    const GroupOf kind = ofPoints                        ? GroupOf::Vertices
-                         : array.name == FacetGroupsName ? GroupOf::Facets
-                                                         : GroupOf::Cells;
     const ColumnSpec spec{ array.name, array.columnType, array.components };
     return !this->Groups.empty() &&
-           (spec == MeshGroups::columnSpec(kind, 3) || spec == MeshGroups::columnSpec(kind, 4));
+           (MeshGroups::isOfMesh(spec, ofPoints, 3) || MeshGroups::isOfMesh(spec, ofPoints, 4));
   }
 
   /** Passes the tuples on; those of groups must be sets that there are. */

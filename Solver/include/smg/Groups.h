@@ -78,6 +78,9 @@ struct SMG_EXPORT MeshGroups
   static const char* columnOf(GroupOf kind);
   /** The specification of that column; of facets for cells of this many corners. */
   static ColumnSpec columnSpec(GroupOf kind, int corners);
+  /** Whether a column with the name of one of groups is that of a mesh whose cells have this many
+   * corners: facets of a surface that was cut out of a solid still have the sets of the solid. */
+  static bool isOfMesh(const ColumnSpec& column, bool ofVertices, int corners);
 
   /**
    * The groups of a kind that `wanted` names: the group of that name or, if there is none, of that
