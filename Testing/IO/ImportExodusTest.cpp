@@ -253,6 +253,19 @@ TEST_F(ImportExodus, BlocksAndSetsAreGroups)
   }
 }
 
+/** As of writers other than the library of Exodus. */
+TEST_F(ImportExodus, BlocksAndSetsWithoutNumbersAreCounted)
+{
+  std::string bytes = exodusMesh(1).bytes(2);
+  for (const std::string name : { "eb_prop1", "ns_prop1", "ss_prop1" })
+  {
+    bytes.replace(bytes.find(name), name.size(), "no" + name.substr(2));
+  }
+  EXPECT_EQ(groupCounts(this->read("a.e", bytes)),
+    (GroupCounts{ { "cells copper", 1 }, { "cells 2", 1 }, { "facets skin", 1 },
+      { "facets inlet", 2 }, { "facets 2", 1 }, { "vertices held", 3 } }));
+}
+
 TEST_F(ImportExodus, ResultsOfATimeStepAreColumns)
 {
   const std::string bytes = exodusMesh(2).bytes(2);

@@ -235,6 +235,18 @@ private:
     return all;
   }
 
+  /** The numbers of the blocks or sets whose members `variable` has; those without one count from 1
+   * on. */
+  std::vector<std::int64_t> numbersOf(const std::string& property, const std::string& variable)
+  {
+    std::vector<std::int64_t> numbers = this->integers(property);
+    while (this->Variables.find(variable + std::to_string(numbers.size() + 1)))
+    {
+      numbers.push_back(std::ssize(numbers) + 1);
+    }
+    return numbers;
+  }
+
   /** Blocks and sets of this many dimensions, with a number and perhaps a name. */
   GroupSet groupOf(int dimension, std::int64_t number, const std::string& name)
   {
@@ -260,12 +272,12 @@ private:
       return this->Blocks;
     }
     constexpr std::int64_t MostNodes = 1000; // of an element
-    const std::vector<std::int64_t> numbers = this->integers("eb_prop1");
+    const std::vector<std::int64_t> numbers = this->numbersOf("eb_prop1", "connect");
     const std::vector<std::string> names = this->names("eb_names");
-    for (std::size_t k = 0; k < std::max<std::size_t>(numbers.size(), 1); ++k)
+    for (std::size_t k = 0; k < numbers.size(); ++k)
     {
       Block block;
-      block.number = k < numbers.size() ? numbers[k] : static_cast<std::int64_t>(k) + 1;
+      block.number = numbers[k];
       block.name = k < names.size() ? names[k] : "";
       const NetCdfVariable* const connect = this->Variables.find("connect" + std::to_string(k + 1));
       if (connect && connect->extents.size() == 2 && connect->extents[1] <= MostNodes)
@@ -329,7 +341,7 @@ private:
 
   void readNodeSets()
   {
-    const std::vector<std::int64_t> numbers = this->integers("ns_prop1");
+    const std::vector<std::int64_t> numbers = this->numbersOf("ns_prop1", "node_ns");
     const std::vector<std::string> names = this->names("ns_names");
     for (std::size_t k = 0; k < numbers.size(); ++k)
     {
@@ -350,7 +362,7 @@ private:
 
   void readSideSets()
   {
-    const std::vector<std::int64_t> numbers = this->integers("ss_prop1");
+    const std::vector<std::int64_t> numbers = this->numbersOf("ss_prop1", "elem_ss");
     const std::vector<std::string> names = this->names("ss_names");
     for (std::size_t k = 0; k < numbers.size(); ++k)
     {
