@@ -95,6 +95,7 @@ std::string toldOrigin(const std::filesystem::path& path)
 
 std::string originOf(const std::filesystem::path& in, const ConversionOptions& options)
 {
+  const CoupledGroups& coupled = options.coupled;
   return plainPath(in) + ' ' + std::to_string(std::filesystem::file_size(in)) + " bytes of " +
          std::to_string(std::filesystem::last_write_time(in).time_since_epoch().count()) +
          " in order " + std::string(nameOf(options.order)) +
@@ -104,7 +105,10 @@ std::string originOf(const std::filesystem::path& in, const ConversionOptions& o
          (options.weld ? ", welded " + nlohmann::json(*options.weld).dump() : "") +
          (options.orient ? ", oriented" : "") +
          (options.timeStep != 0 ? ", time step " + std::to_string(options.timeStep) : "") +
-         (options.partition ? ", partition " + std::to_string(*options.partition) : "");
+         (options.partition ? ", partition " + std::to_string(*options.partition) : "") +
+         (coupled.periodic.empty() && coupled.interfaces.empty()
+             ? ""
+             : ", coupled " + nlohmann::json{ coupled.periodic, coupled.interfaces }.dump());
 }
 
 bool isKept(const std::filesystem::path& in, const std::filesystem::path& out,

@@ -81,6 +81,21 @@ TEST_F(KeptConversion, IsMadeAnewForAnotherWeldDistanceHoweverSmall)
   EXPECT_TRUE(converts(1.1e-9));
 }
 
+TEST_F(KeptConversion, IsMadeAnewForOtherCouplings)
+{
+  const auto converts = [this](const CoupledGroups& coupled)
+  {
+    ConversionOptions options;
+    options.coupled = coupled;
+    return convertToKeep(this->In, this->Out, options).has_value();
+  };
+  EXPECT_TRUE(converts({}));
+  EXPECT_TRUE(converts({ .periodic = { { { "left" }, { "right" } } }, .interfaces = {} }));
+  EXPECT_FALSE(converts({ .periodic = { { { "left" }, { "right" } } }, .interfaces = {} }));
+  EXPECT_TRUE(converts({ .periodic = {}, .interfaces = { { "gap" } } }));
+  EXPECT_TRUE(converts({}));
+}
+
 TEST_F(KeptConversion, IsMadeAnewForAnotherPartOfTheFile)
 {
   const std::filesystem::path grid = this->Folder / "mesh.vtkhdf";
