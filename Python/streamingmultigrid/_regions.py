@@ -371,7 +371,7 @@ def group(*names: Union[str, int]) -> Region:
             characters: ``group("wall*")``. `Mesh.groups` lists them.
 
     A value at vertices holds at the corners of the facets; fluxes act on exactly the facets,
-    conductivities in exactly the cells. An unknown name is an InputError that lists those there are.
+    conductivities in exactly the cells. An unknown name is an Error that lists those there are.
     """
     if not names or not all(isinstance(name, (str, int, np.integer)) and name != "" for name in names):
         raise InputError("group: names of groups are needed, or their numbers, as in smg.group('inlet').")

@@ -258,9 +258,11 @@ std::vector<VertexCouplings::Link> CouplingSearch::linksOf(std::size_t entry) co
   if (!copies.alone.empty())
   {
     this->failAlone(side, copies,
-      " have no copy of another body at their place, which an interface needs: the bodies share "
-      "their vertices there, or are apart, or the place has only the facets of one of them; the "
-      "first is at ");
+      " have no copy of another body at their place, which an interface needs: the bodies are "
+      "meshed "
+      "differently there, or share their vertices, or are apart, or the place has only the facets "
+      "of "
+      "one of them; the first is at ");
   }
   // Two facets that are copies of each other are found once each; of more, not all are.
   std::set<std::pair<std::size_t, std::size_t>> found;
