@@ -296,7 +296,11 @@ vtkStringArray* vtkRegionFilter::GetGroupNames()
     const smg::MeshGroups groups = mesh ? smg::groupsIn(*mesh) : smg::MeshGroups();
     for (const smg::Group& group : groups.groups)
     {
-      names.InsertNextValue(group.label());
+      // Groups of faces and of cells may have the same name.
+      if (names.LookupValue(group.label()) < 0)
+      {
+        names.InsertNextValue(group.label());
+      }
     }
   }
   catch (const smg::Error&)

@@ -375,6 +375,11 @@ HeldPoints heldByGroup(vtkPointSet& mesh, const std::string& name)
       points->Reset();
       *kind == GroupOf::Vertices ? void(points->InsertNextId(tuple))
                                  : mesh.GetCellPoints(tuple, points);
+      // Facets of other cells, as of a solid whose surface this is, are none here.
+      if (*kind == GroupOf::Facets && sets->GetNumberOfComponents() != points->GetNumberOfIds())
+      {
+        continue;
+      }
       for (vtkIdType corner = 0; corner < points->GetNumberOfIds(); ++corner)
       {
         // A facet is opposite to the corner of its component.

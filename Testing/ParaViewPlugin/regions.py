@@ -232,6 +232,17 @@ for scratch in ("", folder):
     measured.ScratchDirectory = scratch
     assert (shown(measured, "Distance") == 0).sum() == 13**2
 
+# A surface cut out of a solid still has the arrays of its cells: the groups of their faces are none of its edges.
+block.MaximumPointsInMemory = 2000000
+surface = ExtractSurface(Input=block)
+region = MeshRegion(Input=surface, Region="Group", GroupName="left half")
+assert shown(region, "RegionMask").sum() == 13**2 + 6 * 48
+left = Threshold(Input=block, Scalars=["CELLS", "PhysicalTag"], LowerThreshold=1, UpperThreshold=1)
+region = MeshRegion(Input=left, Region="Group", GroupName="inlet")
+assert shown(region, "RegionMask").sum() == 13**2
+SaveData(os.path.join(folder, "surface.vtp"), proxy=surface)
+t.run_smg("convert", os.path.join(folder, "surface.vtp"), os.path.join(folder, "surface.vsm"))
+
 # Ordinary meshes, of any cells: in memory, and sorted into a stream.
 plane = Plane(XResolution=5, YResolution=4)
 wavelet = Wavelet(WholeExtent=[-3, 3, -3, 3, -3, 3])
