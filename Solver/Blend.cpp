@@ -6,7 +6,7 @@
 #include "Solver/Jobs/Values/VertexSolution.h"
 #include "Solver/Mesh/VisitCells.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
-#include "Solver/Multigrid/Engine/MemoryEstimate.h"
+#include "Solver/Multigrid/Engine/MemoryPlan.h"
 #include "Solver/Problem/MeshColumns.h"
 
 #include <algorithm>

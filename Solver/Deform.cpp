@@ -3,7 +3,7 @@
 
 #include "Solver/Jobs/Deformation/DeformationEngine.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
-#include "Solver/Multigrid/Engine/MemoryEstimate.h"
+#include "Solver/Multigrid/Engine/MemoryPlan.h"
 #include "smg/DeformationDescription.h"
 #include "smg/DescribedHandles.h"
 #include "smg/Solve.h"

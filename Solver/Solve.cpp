@@ -4,7 +4,7 @@
 #include "Solver/Core/Progress.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "Solver/Multigrid/Engine/Corrections.h"
-#include "Solver/Multigrid/Engine/MemoryEstimate.h"
+#include "Solver/Multigrid/Engine/MemoryPlan.h"
 #include "Solver/Multigrid/Engine/PoissonSolver.h"
 #include "Solver/Multigrid/Extended.h"
 #include "Solver/Problem/ComposeDescriptions.h"

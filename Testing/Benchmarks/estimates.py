@@ -3,7 +3,7 @@
 """estimates.py SMG MESH.vsm... : what each command needs, and what --dry-run says of it before.
 
 Prints a table: accounted memory, scratch files, passes and processor time, each as truth / estimate.
-The constants of Solver/Jobs/Estimate/Costs.cpp and Solver/Multigrid/Engine/MemoryEstimate.cpp were fitted to this table.
+The constants of Solver/Jobs/Estimate/Costs.cpp and Solver/Multigrid/Engine/MemoryPlan.cpp were fitted to this table.
 """
 import json
 import os

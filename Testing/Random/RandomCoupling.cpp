@@ -53,7 +53,10 @@ void ProblemMaker::coupleSides()
     mesh = disjointUnion(mesh, mesh, { length + Apart, 0, 0 });
   }
   mesh = shuffled(mesh, this->Numbers.bits());
-  to = { .seed = to.seed, .run = to.run };
+  Case fresh;
+  fresh.seed = to.seed;
+  fresh.run = to.run;
+  to = fresh;
   to.type = mesh.cellType;
   to.points = mesh.positions;
   to.corners = mesh.corners;

@@ -4,7 +4,7 @@
 #include "Solver/Core/SimdPack.h"
 #include "Solver/Multigrid/Engine/Corrections.h"
 #include "Solver/Multigrid/Engine/ErrorBalance.h"
-#include "Solver/Multigrid/Engine/MemoryEstimate.h"
+#include "Solver/Multigrid/Engine/MemoryPlan.h"
 #include "Solver/Problem/Selection.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 // Expected costs of computations, before any is made: proportional to the numbers of vertices,
 // passes and values, with constants that are fitted to measurements (docs/performance.md,
-// "Estimates"). Memory comes from MemoryEstimate, whose constants are fitted in the same way, and
+// "Estimates"). Memory comes from MemoryPlan, whose constants are fitted in the same way, and
 // depends on the span of the stream, too. All of it is arithmetic on the numbers of a StreamInfo.
 
 namespace smg

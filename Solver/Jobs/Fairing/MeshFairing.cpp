@@ -6,7 +6,7 @@
 #include "Solver/Memory/Pool.h"
 #include "Solver/Mesh/StreamCheck.h"
 #include "Solver/Multigrid/Engine/Convergence.h"
-#include "Solver/Multigrid/Engine/MemoryEstimate.h"
+#include "Solver/Multigrid/Engine/MemoryPlan.h"
 #include "Solver/Problem/MeshColumns.h"
 #include "smg/Error.h"
 #include "smg/MeshSource.h"

@@ -7,7 +7,7 @@
 #include "Solver/Multigrid/Cycle/VCycle.h"
 #include "Solver/Multigrid/Engine/AssemblyReport.h"
 #include "Solver/Multigrid/Engine/Corrections.h"
-#include "Solver/Multigrid/Engine/MemoryEstimate.h"
+#include "Solver/Multigrid/Engine/MemoryPlan.h"
 #include "Solver/Multigrid/Schedule/Schedule.h"
 #include "smg/Error.h"
 
@@ -36,21 +36,12 @@ StreamInfo coupled(const StreamInfo& info, const Problem& problem)
 ColumnResiduals FirstPass::run(
   MeshSource& mesh, Problem& problem, RowListener* listener, std::int64_t furtherCoreBytes)
 {
-  // What one thread is expected to need: more threads take more memory only where the limit leaves
-  // room.
-  SolveOptions alone = this->Context.options;
-  alone.threads = 1;
-  const StreamInfo info = coupled(mesh.info(), problem);
-  this->Context.expectedBytes =
-    (info.span < 0 && !alone.inCore) || info.vertices <= 0
-      ? 0
-      : expectedMemory(info, problem.columns(), problem.weights(), alone);
-  this->Context.isAmple = permitsTasks(info, problem, this->Context.options);
+  this->Context.memory.estimate(
+    coupled(mesh.info(), problem), problem.columns(), problem.weights(), this->Context.options);
   try
   {
     const ColumnResiduals residual = this->perform(mesh, problem, listener, furtherCoreBytes);
-    this->Context.firstPassPeak = this->Context.pool.peak();
-    this->Context.valueNodes = this->Levels.window().x().capacity();
+    this->Context.memory.endFirstPass(this->Levels.window().x().capacity());
     return residual;
   }
   catch (const MemoryLimitError& error)
@@ -116,7 +107,7 @@ ColumnResiduals FirstPass::build(MeshSource& mesh, Problem& problem, RowListener
   // Only among the true finite elements there are weights that cancel.
   const bool placed = this->Operators.readsPositions && problem.weights() == Weights::Cotangent;
   AssembledRows rows(this->Context.pool, problem.columns(), placed);
-  const bool pipelined = this->Context.threads.areConcurrent() && this->Context.isAmple;
+  const bool pipelined = this->Context.threads.areConcurrent() && this->Context.memory.isAmple();
   CancelCheck check([this] { this->Context.progress.updateFirst(0.0); });
   const AskingWhileAsleep asking(this->Context.threads.workers, check);
   HierarchyBuilder builder(this->Context.pool, this->Operators, this->Levels.storage(),

@@ -23,39 +23,12 @@ namespace smg
 
 void Hierarchy::open(std::int64_t vertices)
 {
-  this->FirstCore = this->firstCoreLevel(vertices);
+  this->FirstCore = this->Context.memory.firstCoreLevel(vertices, CoarsestNodes);
   this->addFinestLevel();
   for (int l = 1; l <= this->FirstCore; ++l)
   {
     this->addCoarseLevel(l, l == this->FirstCore);
   }
-}
-
-/** The number of the finest core level, from the usual sizes of levels. */
-int Hierarchy::firstCoreLevel(std::int64_t vertices) const
-{
-  // Upper bounds of the share of C-points: 0.24 to 0.43 were measured on the finest level, 0.14 to
-  // 0.31 on coarser ones.
-  constexpr double FirstShare = 0.43, FurtherShare = 0.31;
-  // Bytes per node of the finest core level of a surface, with all coarser levels; those of solids
-  // have fewer nodes than the bounds above.
-  constexpr std::int64_t BytesPerCoreNode = 200;
-  constexpr int UnknownSize = 4;
-  if (vertices <= 0)
-  {
-    return UnknownSize;
-  }
-  const SolveOptions& options = this->Context.options;
-  // Core levels shall take at most a third of the memory limit.
-  const auto most =
-    static_cast<double>(std::min(options.coreNodes, options.memoryLimit / 3 / BytesPerCoreNode));
-  double nodes = FirstShare * static_cast<double>(vertices);
-  int l = 1;
-  for (; nodes > most && nodes > CoarsestNodes; ++l)
-  {
-    nodes *= FurtherShare;
-  }
-  return l;
 }
 
 void Hierarchy::addFinestLevel()

@@ -85,7 +85,6 @@ public:
   LevelWindow<double> takeWindow();
 
 private:
-  int firstCoreLevel(std::int64_t vertices) const;
   void addFinestLevel();
   void setCore(CoarseLevel& level);
   void addCoarseLevel(int l, bool core);

@@ -30,8 +30,7 @@ void Iteration::run(bool leaveLast)
     if (measures)
     {
       this->HasMeasured = true;
-      this->Context.plainPassPeak = this->Context.pool.recentPeak();
-      this->Context.valueNodes = this->Levels.window().x().capacity();
+      this->Context.memory.endPlainPass(this->Levels.window().x().capacity());
     }
     this->StoppingRule.add(this->Levels.residualNorm(), this->Levels.roundingNorm(),
       this->Context.shareOfTolerance(this->StoppingRule.reference()),
@@ -67,7 +66,9 @@ bool Iteration::measuresMemory() const
   {
     return false;
   }
-  return this->Accelerator.isWanted() && !this->hasRoom(KeptResiduals::All);
+  const LevelWindow<double>& window = this->Levels.window();
+  return this->Accelerator.isWanted() &&
+         this->Context.memory.asksForMeasure(window.nodes(), window.stride(), KeptResiduals::All);
 }
 
 /** Creates the history that the next V-cycle needs, or releases one that it does not need. */
@@ -94,38 +95,20 @@ void Iteration::emplaceHistoryWithRoom()
                                     ? KeptResiduals::None
                                   : this->Levels.slowestAtSlivers() ? KeptResiduals::All
                                                                     : KeptResiduals::Sampled;
-  const bool areFewer = !this->hasRoom(residuals);
-  if (areFewer && (residuals == KeptResiduals::None || !this->hasRoom(KeptResiduals::Few)))
+  const LevelWindow<double>& window = this->Levels.window();
+  const std::optional<KeptResiduals> kept =
+    this->Context.memory.residualsThatFit(window.nodes(), window.stride(), residuals);
+  if (!kept)
   {
     this->Accelerator.saveMemory();
     return;
   }
-  this->emplaceHistory(areFewer ? KeptResiduals::Few : residuals);
+  this->emplaceHistory(*kept);
+  const bool areFewer = *kept != residuals;
   if (residuals != KeptResiduals::None && (areFewer || this->HasMeasured))
   {
     this->Accelerator.noteLimit(this->HasMeasured, areFewer);
   }
-}
-
-/** Whether the memory limit has room for a history with these residuals. The number of threads
- * must not matter, since the solution depends on the answer. */
-bool Iteration::hasRoom(KeptResiduals residuals) const
-{
-  constexpr std::int64_t Pages = std::int64_t(1) << 16; // rings grow by pages, and ahead of need
-  const Pool& pool = this->Context.pool;
-  const LevelWindow<double>& window = this->Levels.window();
-  const std::int64_t nodes = window.nodes();
-  if (!this->Context.scratch)
-  {
-    const std::int64_t need = nodes * IterateHistory::nodeBytes(window.stride(), residuals);
-    return pool.used() + need + need / 4 + Pages <= pool.limit();
-  }
-  if (this->Context.isAmple && this->Context.expectedBytes > 0)
-  {
-    return true; // the limit is far above the need: permitsTasks()
-  }
-  return this->Context.passBytes(window.stride(), IterateHistory::sparseness(nodes, residuals)) <=
-         pool.limit();
 }
 
 void Iteration::emplaceHistory(KeptResiduals residuals)

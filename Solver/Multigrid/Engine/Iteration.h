@@ -51,7 +51,6 @@ private:
   void addHistory();
   void emplaceHistoryWithRoom();
   bool measuresMemory() const;
-  bool hasRoom(KeptResiduals residuals) const;
   void emplaceHistory(KeptResiduals residuals);
 
   SolveContext& Context;

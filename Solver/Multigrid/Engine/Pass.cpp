@@ -21,11 +21,12 @@ try
   finest.setHistory(options.history);
   finest.setScale(scaleFor(scale / std::sqrt(static_cast<double>(nodes))));
 
-  const SolveContext::Steps steps =
+  const MemoryPlan::Steps steps =
     options.inOneChain
-      ? SolveContext::Steps{ this->Context.options.blockNodes, 1 }
-      : this->Context.stepsOf(nodes, finest.window().stride(),
-          options.history ? std::optional(options.history->sparseness()) : std::nullopt);
+      ? this->Context.memory.leastSteps()
+      : this->Context.memory.stepsOf(nodes, finest.window().stride(),
+          options.history ? std::optional(options.history->sparseness()) : std::nullopt,
+          this->Context.threads.scheduled);
   Schedule schedule = this->scheduleOf(options, steps.chains);
   std::int64_t end = 0;
   const auto prepare = [&]

@@ -26,6 +26,7 @@ SolveContext::SolveContext(int columns, const SolveOptions& solveOptions)
   : options(solveOptions)
   , progress(solveOptions.progress)
   , pool(solveOptions.memoryLimit)
+  , memory(this->pool, this->options)
   , components(columns, &this->pool)
   , labels(this->components)
   , free(this->components, this->labels, columns)
@@ -85,44 +86,6 @@ void SolveContext::note(const Schedule& schedule, bool isFirstPass)
     }
     noted->seconds += schedule.seconds(s);
   }
-}
-
-std::int64_t SolveContext::passBytes(int stride, std::optional<std::int64_t> sparseness) const
-{
-  std::int64_t bytes = this->plainPassPeak > 0 ? this->plainPassPeak + this->plainPassPeak / 10
-                                               : this->firstPassPeak + this->firstPassPeak / 8;
-  if (sparseness)
-  {
-    // In the window, and in blocks that are prefetched or wait to be written.
-    const std::int64_t kept = this->valueNodes + 6 * RowBlock::Nodes;
-    const std::int64_t values = kept * stride * std::int64_t(sizeof(double));
-    bytes += values * 5 / 4 + (*sparseness > 0 ? values * 7 / 4 / *sparseness : 0);
-  }
-  return bytes;
-}
-
-auto SolveContext::stepsOf(
-  std::int64_t nodes, int stride, std::optional<std::int64_t> sparseness) const -> Steps
-{
-  constexpr std::int64_t NodeBytes = 400; // measured, with coarser levels: 220 of surfaces
-  // Each chain keeps the nodes of a step in memory; in core all nodes are there anyway.
-  const auto chainsFor = [&](std::int64_t step)
-  {
-    if (!this->scratch)
-    {
-      return std::numeric_limits<std::int64_t>::max();
-    }
-    // At least a bit more than the first pass needed, since a pass that two problems share has the
-    // values of both.
-    const std::int64_t first = this->firstPassPeak;
-    const std::int64_t need = std::max(first + first / 16, this->passBytes(stride, sparseness));
-    return (this->pool.limit() - need) / (NodeBytes * std::min(step, nodes));
-  };
-  const std::int64_t usual = this->options.blockNodes;
-  const std::int64_t wanted = Schedule::chainsFor(this->threads.scheduled);
-  const std::int64_t longer = Schedule::stepFor(this->threads.scheduled, usual);
-  const std::int64_t step = chainsFor(longer) < wanted ? usual : longer;
-  return { step, static_cast<int>(std::clamp(chainsFor(step), std::int64_t(1), wanted)) };
 }
 
 void SolveContext::finishReport()
@@ -252,8 +215,7 @@ void SolveContext::save(StateWriter& state)
   FieldsState<Report> reported{ r };
   const std::int64_t peak = this->pool.peak();
   state.part("run");
-  state(reported, peak, this->expectedBytes, this->isAmple, this->firstPassPeak,
-    this->plainPassPeak, this->valueNodes, this->components, this->labels);
+  state(reported, peak, this->memory, this->components, this->labels);
   this->Kept.save(state);
   state.part("counts");
   const std::uint64_t kinds = this->traffic.kinds().size();
@@ -273,8 +235,7 @@ void SolveContext::load(StateReader& state)
   // Files must exist before their places are restored.
   this->labels.useScratch(*this->scratch, this->traffic.add("labels"));
   state.part("run");
-  state(reported, peak, this->expectedBytes, this->isAmple, this->firstPassPeak,
-    this->plainPassPeak, this->valueNodes, this->components, this->labels);
+  state(reported, peak, this->memory, this->components, this->labels);
   this->pool.raisePeak(peak);
   this->SecondsBefore = this->report.seconds.total;
   // As if this program had started earlier by the time that the others took.

@@ -12,6 +12,7 @@
 #include "Solver/Multigrid/Cycle/LevelWindow.h"
 #include "Solver/Multigrid/Engine/ColumnScales.h"
 #include "Solver/Multigrid/Engine/FreeComponents.h"
+#include "Solver/Multigrid/Engine/MemoryPlan.h"
 #include "Solver/Multigrid/Engine/SolveProgress.h"
 #include "Solver/Multigrid/Schedule/Schedule.h"
 #include "smg/Export.h"
@@ -65,28 +66,10 @@ struct SMG_EXPORT SolveContext
    * checkpoint, saves the state. */
   void endPass(double residual);
 
-  /**
-   * The bytes of the pool that a pass out of core needs in one chain, with a history of this
-   * sparseness (0: steps alone) or without one, for `stride` values per node: bounds of what
-   * surfaces, solids and scans of 50 thousand to 2.8 million vertices needed. Most passes need less
-   * than the first one, down to a third of it; on slivers they need up to 1.1 times as much.
-   */
-  std::int64_t passBytes(int stride, std::optional<std::int64_t> sparseness) const;
-  /** The steps of a pass: nodes of the finest level in a step, and chains of stages. */
-  struct Steps
-  {
-    std::int64_t nodes;
-    int chains;
-  };
-  /** The steps for the threads, as far as the memory suffices, of a pass over a finest level of
-   * this many nodes; `stride` and `sparseness` as above. Shorter steps are preferred to fewer
-   * chains. */
-  Steps stepsOf(std::int64_t nodes, int stride, std::optional<std::int64_t> sparseness) const;
-
   /** The error of a part that exceeded the limit, completed by the memory that usually suffices. */
   MemoryLimitError explained(const MemoryLimitError& error) const
   {
-    const MemoryLimitError expecting = error.expecting(this->expectedBytes);
+    const MemoryLimitError expecting = error.expecting(this->memory.expected());
     return this->couplings ? expecting.of(CoupledSolveMemory) : expecting;
   }
 
@@ -111,18 +94,7 @@ struct SMG_EXPORT SolveContext
   Solution* corrected = nullptr;
   SolveProgress progress;
   Pool pool;
-  /** The bytes of the pool that one thread is expected to need, estimated before the first pass;
-   * 0: unknown. */
-  std::int64_t expectedBytes = 0;
-  /** Whether the memory limit leaves room for many tasks in the first pass; see permitsTasks(). */
-  bool isAmple = false;
-  /** The peak of the pool in the first pass, in bytes. */
-  std::int64_t firstPassPeak = 0;
-  /** The peak in a later pass without acceleration and in one chain; 0: not measured. */
-  std::int64_t plainPassPeak = 0;
-  /** The number of nodes of the finest level for whose values that pass, or else the first one,
-   * had memory. */
-  std::int64_t valueNodes = 0;
+  MemoryPlan memory;
   ResidentNodes resident;
   std::optional<ScratchFolder> scratch; ///< none in core
   std::optional<Checkpoint> checkpoint; ///< in the scratch folder
