@@ -63,22 +63,35 @@ const SystemRecord& GivenSystem::recordOf(std::int64_t vertex) const
 std::int64_t GivenSystem::fill(std::int64_t final)
 {
   this->take(final);
-  while (this->Closed < this->Loaded)
+  const std::int64_t end = this->reachable(this->Closed, this->Taken);
+  while (this->Closed < end)
   {
-    const SystemRecord::Header& h = this->recordOf(this->Closed).header();
-    const std::int64_t group = (this->Closed - h.first) / RowBlock::Group;
-    if (h.reach[static_cast<std::size_t>(group)] >= this->Taken)
-    {
-      break;
-    }
-    this->closeRows(h.first + std::min<std::int64_t>(h.nodes, (group + 1) * RowBlock::Group));
+    this->closeRows(std::min(end, this->recordOf(this->Closed).end()));
   }
-  this->Complete = this->Window.reachable(this->Complete, this->Closed, false);
-  while (!this->Records.empty() && this->Records.front().end() <= this->Closed)
+  // The window releases what is complete: rows must not need it any more, as those that have a
+  // known neighbour far away do, which is in no entry of theirs.
+  this->Complete = this->reachable(this->Complete, this->Closed);
+  while (!this->Records.empty() && this->Records.front().end() <= this->Complete)
   {
     this->Records.pop_front();
   }
   return this->Complete;
+}
+
+/** The end of the vertices from `cursor` on whose neighbours in the mesh are all below `done`. */
+std::int64_t GivenSystem::reachable(std::int64_t cursor, std::int64_t done) const
+{
+  while (cursor < done)
+  {
+    const SystemRecord::Header& h = this->recordOf(cursor).header();
+    const std::int64_t group = (cursor - h.first) / RowBlock::Group;
+    if (h.reach[static_cast<std::size_t>(group)] >= done)
+    {
+      break;
+    }
+    cursor = h.first + std::min<std::int64_t>(h.nodes, (group + 1) * RowBlock::Group);
+  }
+  return cursor;
 }
 
 /** Takes the values of the vertices below `end`, block by block. */

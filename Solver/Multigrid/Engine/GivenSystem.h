@@ -72,6 +72,7 @@ private:
   /** Whether the values before are not given up. */
   bool hasBefore() const { return this->Window.isSeparate(); }
   void take(std::int64_t end);
+  std::int64_t reachable(std::int64_t cursor, std::int64_t done) const;
   void closeRows(std::int64_t end);
   template <class Arrays>
   void addRows(const Arrays& rows, const BlockPart<double>& part);
