@@ -262,8 +262,8 @@ void LinearEngine::solve(const Group& group, const LinearVectors& vectors, const
   this->Context.scales = ColumnScales(columns.references, this->VectorSize);
   convergence = Convergence(stopping, this->Context.scales.of(columns));
   // As for a first pass: see PoissonSolver.
-  convergence.begin(
-    this->System.levels().residualNorm(), !this->Context.components.shiftsRightSide());
+  convergence.begin(this->System.levels().residualNorm(),
+    !this->Context.components.shiftsRightSide() && !this->Context.flow);
   this->Context.endPass(convergence.initial());
   iteration.run(false);
   Report& r = this->Context.report;
