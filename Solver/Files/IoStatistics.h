@@ -51,6 +51,16 @@ public:
     return found != this->Kinds.end() ? found->statistics : this->add(name, level);
   }
 
+  /** Forgets what was read and written so far; no file may be in use. */
+  void restart()
+  {
+    for (Kind& kind : this->Kinds)
+    {
+      kind.statistics.bytesRead = kind.statistics.bytesWritten = 0;
+      kind.statistics.waitNanoseconds = 0;
+    }
+  }
+
   const std::deque<Kind>& kinds() const { return this->Kinds; }
 
   std::int64_t bytesRead() const { return this->sum(&IoStatistics::bytesRead); }

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -93,6 +95,54 @@ TEST(SystemOnDisk, DoesNotDependOnThreadsOrBlocks)
       system.solve(sides.b, x);
       expected = expected.empty() ? x : expected;
       EXPECT_EQ(x, expected) << threads << " threads";
+    }
+  }
+}
+
+TEST(SystemOnDisk, HasKnownNeighboursThatLieFarAwayInTheStream)
+{
+  // Rows of vertices that are longer than a block, the first of them known in half of their
+  // vertices: blocks without unknowns, to which rows of later blocks have edges.
+  const StreamMesh mesh = toStream(grid(5000, 12), TestOrder::Keep);
+  ArrayProblem problem;
+  problem.EdgeWeights = Weights::Cotangent;
+  problem.Prescribed.resize(static_cast<std::size_t>(mesh.vertices()));
+  std::fill_n(problem.Prescribed.begin(), 2500, std::uint8_t(1));
+  problem.Value = randomNumbers(mesh.vertices(), 2);
+  problem.Source = randomNumbers(mesh.vertices(), 3);
+  for (const int threads : { 1, 3 })
+  {
+    SolveOptions options = onDisk();
+    options.blockNodes = 100;
+    options.threads = threads;
+    ArrayProblem built = problem;
+    MemorySource source(mesh);
+    SystemOnDisk system(source, built, options);
+    expectSame(system, mesh, problem, options, 1e-8);
+  }
+}
+
+TEST(SystemOnDisk, ReportsTheTrafficOfEachSolveAlone)
+{
+  const StreamMesh mesh = toStream(torus(90, 45, 0.3));
+  ArrayProblem problem = posed(mesh, 1, Weights::Cotangent, false);
+  const Sides sides = sidesOf(mesh, problem);
+  MemorySource source(mesh);
+  SystemOnDisk system(source, problem, onDisk());
+  Report first;
+  for (int k = 0; k < 3; ++k)
+  {
+    Numbers x = sides.x;
+    const Report& report = system.solve(sides.b, x);
+    first = k == 0 ? report : first;
+    EXPECT_EQ(report.bytes_by_kind.size(), first.bytes_by_kind.size());
+    EXPECT_EQ(report.bytes_read, first.bytes_read);
+    EXPECT_EQ(report.bytes_written, first.bytes_written);
+    ASSERT_EQ(report.by_pass.size(), first.by_pass.size());
+    for (std::size_t pass = 0; pass < first.by_pass.size(); ++pass)
+    {
+      EXPECT_EQ(report.by_pass[pass].read, first.by_pass[pass].read);
+      EXPECT_EQ(report.by_pass[pass].written, first.by_pass[pass].written);
     }
   }
 }

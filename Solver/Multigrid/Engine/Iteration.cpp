@@ -118,7 +118,7 @@ void Iteration::emplaceHistory(KeptResiduals residuals)
   this->History.emplace(this->Context.pool, window.nodes(), window.columns(), residuals);
   if (this->Context.scratch)
   {
-    this->History->useScratch(*this->Context.scratch, this->Context.traffic.add("history", 0));
+    this->History->useScratch(*this->Context.scratch, this->Context.traffic.of("history", 0));
   }
 }
 

@@ -66,6 +66,7 @@ void SolveContext::beginAgain()
   this->report.passes = 0;
   this->report.seconds = {};
   this->report.stages.clear();
+  this->traffic.restart();
   this->beginReport();
 }
 
