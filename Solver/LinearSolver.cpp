@@ -35,6 +35,16 @@ SolveOptions onDiskOptions(SolveOptions options)
   return options;
 }
 
+/** Throws Error if vertices are tied: loads and values of all but one of them have no row. */
+Problem& untied(Problem& problem)
+{
+  const auto couplings = problem.couplings();
+  require(!couplings || couplings->ties.empty(),
+    "a linear solver has an equation for each vertex: it takes no problem with vertices that are "
+    "one, as those of periodic sides and of contacts without resistance are");
+  return problem;
+}
+
 /** An engine of this process. */
 class OwnEngine
 {
@@ -42,7 +52,7 @@ public:
   OwnEngine(MeshSource& mesh, Problem& problem, const SolveOptions& options)
     : Engine(compiled(Extended::forCells(mesh.info().cellType)), problem.columns(), options)
   {
-    this->Engine.build(mesh, problem);
+    this->Engine.build(mesh, untied(problem));
   }
 
   const LinearEngine& engine() const { return this->Engine; }

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <memory>
 
 // Equations whose hierarchy is kept: every solution has the bits of solve() with the same
 // right-hand side and initial values, whatever was solved before, and satisfies equations that were
@@ -321,6 +322,26 @@ TEST(LinearSolver, RefusesWhatIsNotValid)
   // And goes on.
   std::ranges::fill(b, 1.0);
   EXPECT_TRUE(solver.solve(b, x).converged);
+}
+
+TEST(LinearSolver, RefusesTiedVertices)
+{
+  class Tied : public ArrayProblem
+  {
+  public:
+    std::shared_ptr<const VertexCouplings> couplings() const override
+    {
+      auto couplings = std::make_shared<VertexCouplings>();
+      couplings->ties.push_back({ 7, 3 });
+      return couplings;
+    }
+  };
+  Tied problem;
+  problem.EdgeWeights = Weights::Cotangent;
+  const StreamMesh mesh = toStream(torus(60, 30));
+  MemorySource source(mesh);
+  expectError([&] { LinearSolver(source, problem); }, "vertices that are one");
+  expectError([&] { SystemOnDisk(source, problem); }, "vertices that are one");
 }
 
 TEST(LinearSolver, NamesTheMemoryThatItNeeds)

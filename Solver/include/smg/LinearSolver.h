@@ -62,7 +62,7 @@ public:
    * @param problem the problem, asked once for each block
    * @param options how to solve: SolveOptions::inCore is implied; tolerance, maxCycles and
    * acceleration are those of solve(); the progress is that of building
-   * @throws Error, Cancelled as smg::solve() in core
+   * @throws Error, Cancelled as smg::solve() in core; Error if the problem ties vertices to others
    */
   LinearSolver(MeshSource& mesh, Problem& problem, const SolveOptions& options = {});
   /** The same for the problem of a description, which need not say anything. `name` is what errors
@@ -147,7 +147,7 @@ public:
    * @param problem the problem, asked once for each block
    * @param options how to solve, as for smg::solve() out of core: threads, memoryLimit, scratch and
    * scratchLimit are those of later solves, too; there are no checkpoints
-   * @throws Error, Cancelled as smg::solve()
+   * @throws Error, Cancelled as smg::solve(); Error if the problem ties vertices to others
    */
   SystemOnDisk(MeshSource& mesh, Problem& problem, const SolveOptions& options = {});
   /** The same for the problem of a description, which need not say anything. `name` is what errors
