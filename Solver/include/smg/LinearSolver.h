@@ -27,7 +27,8 @@ struct VectorBlock
 };
 
 /** Sets right-hand sides `b` and initial values `x` of a block, both 0 when it is called: `columns`
- * numbers for each vertex, side by side. Blocks come in ascending order. */
+ * numbers for each vertex, side by side. Blocks come in ascending order; with several threads the
+ * call is made on one of the solver. */
 using GivenVectors =
   std::function<void(const VectorBlock& block, std::span<double> b, std::span<double> x)>;
 /** Takes the solution of a block, in the same way. */
@@ -167,7 +168,9 @@ public:
 
   /**
    * Solves A x = b, with the vectors a block at a time, so that they need not be in memory. The
-   * solution has the bits of smg::solve() for the same b and initial values.
+   * solution has the bits of smg::solve() for the same b and initial values; where the memory limit
+   * is near what acceleration needs, later solves may be accelerated otherwise, within the
+   * tolerance.
    * @param columns the number of right-hand sides, at least 1; as many as the problem has are
    * solved together
    * @param give called once for each vertex and group of columns; its exceptions end the solve
