@@ -154,7 +154,7 @@ TEST(MemoryPlan, ResidualsGiveWayBeforeSteps)
     EXPECT_GE(now, rank);
     rank = now;
     seen[now] = true;
-    EXPECT_EQ(after.plan.asksForMeasure(Nodes, 1, KeptResiduals::All), now < 2);
+    EXPECT_EQ(!after.plan.hasRoom(Nodes, 1, KeptResiduals::All), now < 2);
     EXPECT_TRUE(now == 0 || after.plan.hasRoom(Nodes, 1, KeptResiduals::None));
   }
   EXPECT_TRUE(seen[0] && seen[1] && seen[2]);

@@ -73,7 +73,7 @@ bool DeformationSteps::resume(Step& rotations, Step& positions, bool& rotated)
 void DeformationSteps::beginPositions(Step& rotations, Step& positions)
 {
   PositionStep step(this->Context.pool, this->Rest, this->System.window(), this->positionScale());
-  const double norm = this->System.advance(step);
+  this->System.advance(step);
   checkMotions(step.termSquares());
   rotations.convergence.add(std::sqrt(step.rotationSquares()));
   rotations.convergence.addStep(this->Context.report, "rotation", "rotation step: ");
@@ -82,7 +82,7 @@ void DeformationSteps::beginPositions(Step& rotations, Step& positions)
   const double motion = std::sqrt(step.initialSquares());
   positions.convergence =
     Convergence(this->stopping(), { motion, roundingOf(step.termSquares()), motion });
-  positions.convergence.begin(norm);
+  positions.convergence.begin(this->System.levels().residualNorm());
 }
 
 /** An estimate of the largest residual of the positions: weights of triangles are of order 1, those

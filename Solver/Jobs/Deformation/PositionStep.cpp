@@ -53,13 +53,13 @@ struct EdgeSums
 void PositionStep::startPass()
 {
   this->Rest.startPass();
-  this->Rest.system().startPass();
+  this->Records.startPass();
 }
 
 void PositionStep::endPass()
 {
   this->Rest.endPass();
-  this->Rest.system().endPass();
+  this->Records.endPass();
 }
 
 /** Loads the positions at rest, and the displacements of held vertices; the downward part starts
@@ -67,9 +67,9 @@ void PositionStep::endPass()
 void PositionStep::load()
 {
   const std::int64_t loaded = this->Window.loaded();
+  this->Records.load(loaded);
   while (this->Points.end() < loaded)
   {
-    this->Records.push_back(this->Rest.system().next());
     const RestBlock block = this->Rest.next();
     const std::int64_t first = block.first();
     this->Points.extendRaw(block.end());
@@ -89,27 +89,16 @@ void PositionStep::load()
   }
 }
 
-/** Turns all vertices below `final`, then completes groups of rows as far as their neighbours are
- * turned. */
+/** Turns all vertices below `final`, then completes rows as far as their neighbours are turned. */
 std::int64_t PositionStep::fill(std::int64_t final)
 {
   this->turn(final);
-  // Group by group of the rows, as the other stages do; a group needs its farthest neighbour to be
-  // turned.
-  while (this->Done < this->Points.end())
+  // A row needs its farthest neighbour to be turned.
+  const std::int64_t end = this->Records.reachable(this->Done, this->Turned);
+  while (this->Done < end)
   {
-    const auto number =
-      static_cast<std::size_t>((this->Done - this->Records.front().first()) / RowBlock::Nodes);
-    // Blocks have a fixed number of vertices, so that the one of Done is found by division.
-    const SystemRecord& record = this->Records[number];
-    const SystemRecord::Header& h = record.header();
-    const std::int64_t group = (this->Done - h.first) / RowBlock::Group;
-    if (h.reach[static_cast<std::size_t>(group)] >= this->Turned)
-    {
-      break;
-    }
-    this->closeGroup(
-      record, h.first + std::min<std::int64_t>(h.nodes, (group + 1) * RowBlock::Group));
+    const SystemRecord& record = this->Records.of(this->Done);
+    this->closeRows(record, std::min(end, record.end()));
   }
   this->release();
   return this->Done;
@@ -127,7 +116,7 @@ void PositionStep::turn(std::int64_t end)
 }
 
 /** Processes the rows from Done to `end`, which are in one block. */
-void PositionStep::closeGroup(const SystemRecord& record, std::int64_t end)
+void PositionStep::closeRows(const SystemRecord& record, std::int64_t end)
 {
   // Links are listed by ascending node and consumed in this order.
   if (this->Done == record.first())
@@ -211,20 +200,12 @@ void PositionStep::closeRow(const SystemRecord& record, std::int64_t i, const Ro
 /** Releases vertices that no row from Done on needs. */
 void PositionStep::release()
 {
-  while (!this->Records.empty())
-  {
-    const SystemRecord::Header& h = this->Records.front().header();
-    const auto group = static_cast<std::size_t>((h.nodes - 1) / RowBlock::Group);
-    const std::int64_t end = h.first + h.nodes;
-    if (end > this->Done || h.reach[group] >= this->Done)
-    {
-      break;
-    }
-    this->Points.release(end);
-    this->Motions.release(end);
-    this->Frames.release(end);
-    this->Records.pop_front();
-  }
+  this->Unneeded = this->Records.reachable(this->Unneeded, this->Done);
+  this->Records.release(this->Unneeded);
+  const std::int64_t first = this->Records.first();
+  this->Points.release(first);
+  this->Motions.release(first);
+  this->Frames.release(first);
 }
 
 } // namespace smg

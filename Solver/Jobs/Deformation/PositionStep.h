@@ -7,8 +7,8 @@
 #include "Solver/Multigrid/Engine/NextSystem.h"
 #include "Solver/Multigrid/Engine/SystemRecords.h"
 
+#include <cstddef>
 #include <cstdint>
-#include <deque>
 
 namespace smg
 {
@@ -34,6 +34,7 @@ public:
     : Rest(rest)
     , Window(window)
     , Scale(scale)
+    , Records(rest.system())
     , Points(pool, 3)
     , Motions(pool, 3)
     , Frames(pool)
@@ -56,7 +57,7 @@ public:
 
 private:
   void turn(std::int64_t end);
-  void closeGroup(const SystemRecord& record, std::int64_t end);
+  void closeRows(const SystemRecord& record, std::int64_t end);
   template <class Row>
   void closeRow(const SystemRecord& record, std::int64_t i, const Row& row);
   void release();
@@ -64,10 +65,10 @@ private:
   RestShape& Rest;
   LevelWindow<double>& Window;
   double Scale;
-  std::deque<SystemRecord> Records;
+  OpenRecords Records;
   Ring<double> Points, Motions; // positions at rest; displacements u, set at held vertices only
   Ring<Frame> Frames;
-  std::int64_t Turned = 0, Done = 0;
+  std::int64_t Turned = 0, Done = 0, Unneeded = 0;
   std::size_t NextLink = 0; // in the record of Done
   double RotationSquares = 0.0, InitialSquares = 0.0, TermSquares = 0.0;
 };

@@ -119,11 +119,7 @@ void FairingSeries::begin(const ColumnResiduals& residual)
   // Later steps change little: they are measured against the first one, as their errors are.
   this->Reference = std::max(this->Reference, first.reference);
   first.reference = this->Reference;
-  this->Current = Convergence(this->StoppingRule, first);
-  // As for any problem: see PoissonSolver.
-  this->Current.begin(this->System.levels().residualNorm(),
-    !this->Context.components.shiftsRightSide() && !this->Context.flow);
-  this->Context.endPass(this->Current.initial());
+  this->System.begin(this->Current, this->StoppingRule, first);
 }
 
 void FairingSeries::end(int step)

@@ -21,7 +21,7 @@ namespace smg
 GivenSystem::GivenSystem(SolveContext& context, SystemRecords& records, LevelWindow<double>& window,
   SystemValues& values, int columns, double scale)
   : Context(context)
-  , All(records)
+  , Records(records)
   , Window(window)
   , Values(values)
   , Columns(columns)
@@ -35,63 +35,32 @@ GivenSystem::GivenSystem(SolveContext& context, SystemRecords& records, LevelWin
 void GivenSystem::startPass()
 {
   this->Context.components.restartCounts();
-  this->All.startPass();
+  this->Records.startPass();
 }
 
 void GivenSystem::load()
 {
-  while (this->Loaded < this->Window.loaded())
-  {
-    this->Records.push_back(this->All.next());
-    this->Loaded = this->Records.back().end();
-  }
+  this->Records.load(this->Window.loaded());
 }
 
 void GivenSystem::endPass()
 {
-  this->All.endPass();
-}
-
-/** The record of a vertex that is not complete. */
-const SystemRecord& GivenSystem::recordOf(std::int64_t vertex) const
-{
-  // Blocks have a fixed number of vertices.
-  return this
-    ->Records[static_cast<std::size_t>((vertex - this->Records.front().first()) / RowBlock::Nodes)];
+  this->Records.endPass();
 }
 
 std::int64_t GivenSystem::fill(std::int64_t final)
 {
   this->take(final);
-  const std::int64_t end = this->reachable(this->Closed, this->Taken);
+  const std::int64_t end = this->Records.reachable(this->Closed, this->Taken);
   while (this->Closed < end)
   {
-    this->closeRows(std::min(end, this->recordOf(this->Closed).end()));
+    this->closeRows(std::min(end, this->Records.of(this->Closed).end()));
   }
   // The window releases what is complete: rows must not need it any more, as those that have a
   // known neighbour far away do, which is in no entry of theirs.
-  this->Complete = this->reachable(this->Complete, this->Closed);
-  while (!this->Records.empty() && this->Records.front().end() <= this->Complete)
-  {
-    this->Records.pop_front();
-  }
+  this->Complete = this->Records.reachable(this->Complete, this->Closed);
+  this->Records.release(this->Complete);
   return this->Complete;
-}
-
-/** The end of the vertices from `cursor` on whose neighbours in the mesh are all below `done`. */
-std::int64_t GivenSystem::reachable(std::int64_t cursor, std::int64_t done) const
-{
-  while (cursor < done)
-  {
-    const SystemRecord::Header& h = this->recordOf(cursor).header();
-    const std::int64_t group = (cursor - h.first) / RowBlock::Group;
-    if (h.reach[static_cast<std::size_t>(group)] >= done)
-    {
-      break;
-    }
-    cursor = h.first + std::min<std::int64_t>(h.nodes, (group + 1) * RowBlock::Group);
-  }
-  return cursor;
 }
 
 /** Takes the values of the vertices below `end`, block by block. */
@@ -101,7 +70,7 @@ void GivenSystem::take(std::int64_t end)
   const int stride = this->Window.stride();
   while (this->Taken < end)
   {
-    const SystemRecord& record = this->recordOf(this->Taken);
+    const SystemRecord& record = this->Records.of(this->Taken);
     const std::int64_t count = std::min(end, record.end()) - this->Taken;
     for (std::vector<double>* values : { &this->Before, &this->B })
     {
@@ -128,7 +97,7 @@ void GivenSystem::take(std::int64_t end)
 /** Closes the rows from Closed to `end`, which are in one block. */
 void GivenSystem::closeRows(std::int64_t end)
 {
-  const SystemRecord& record = this->recordOf(this->Closed);
+  const SystemRecord& record = this->Records.of(this->Closed);
   if (this->Closed == record.first())
   {
     this->NextLink = this->NextKnown = this->Run = 0;
@@ -152,7 +121,7 @@ template <class Arrays>
 void GivenSystem::addRows(const Arrays& rows, const BlockPart<double>& part)
 {
   const RowBlock::Header& h = part.header();
-  const std::span<const std::int16_t> known = this->recordOf(h.first).known();
+  const std::span<const std::int16_t> known = this->Records.of(h.first).known();
   forRuns<double>(h, rows, part.nodes,
     [&](const auto& arrays, BlockRange nodes, auto /*isSpecial*/)
     {
@@ -176,7 +145,7 @@ template <class Arrays>
 void GivenSystem::addRow(
   const RowBlock::Header& h, const Arrays& arrays, const BlockPart<double>& part, std::int64_t k)
 {
-  const SystemRecord& record = this->recordOf(h.first);
+  const SystemRecord& record = this->Records.of(h.first);
   const std::span<const SystemRecord::Run> runs = record.runs();
   while (this->Run + 1 < runs.size() && runs[this->Run + 1].begin <= k)
   {

@@ -12,7 +12,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <span>
 #include <vector>
 
@@ -72,7 +71,6 @@ private:
   /** Whether the values before are not given up. */
   bool hasBefore() const { return this->Window.isSeparate(); }
   void take(std::int64_t end);
-  std::int64_t reachable(std::int64_t cursor, std::int64_t done) const;
   void closeRows(std::int64_t end);
   template <class Arrays>
   void addRows(const Arrays& rows, const BlockPart<double>& part);
@@ -82,16 +80,14 @@ private:
   void addMeanBefore(std::int32_t root, std::int64_t vertex, double weight);
   template <class Arrays>
   void addResidualBefore(const RowBlock::Header& h, const Arrays& arrays, std::int64_t k);
-  const SystemRecord& recordOf(std::int64_t vertex) const;
 
   SolveContext& Context;
-  SystemRecords& All;
   LevelWindow<double>& Window;
   SystemValues& Values;
   int Columns;
   double Scale;
-  std::deque<SystemRecord> Records;
-  std::int64_t Loaded = 0, Taken = 0, Closed = 0, Complete = 0;
+  OpenRecords Records;
+  std::int64_t Taken = 0, Closed = 0, Complete = 0;
   // In the record of Closed.
   std::size_t NextLink = 0, NextKnown = 0, Run = 0;
   InitialResidual First;

@@ -68,7 +68,7 @@ bool Iteration::measuresMemory() const
   }
   const LevelWindow<double>& window = this->Levels.window();
   return this->Accelerator.isWanted() &&
-         this->Context.memory.asksForMeasure(window.nodes(), window.stride(), KeptResiduals::All);
+         !this->Context.memory.hasRoom(window.nodes(), window.stride(), KeptResiduals::All);
 }
 
 /** Creates the history that the next V-cycle needs, or releases one that it does not need. */

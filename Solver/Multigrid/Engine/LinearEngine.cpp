@@ -260,11 +260,7 @@ void LinearEngine::solve(const Group& group, const LinearVectors& vectors, const
   this->System.restart(next);
   const ColumnResiduals columns = next.residual(this->System.levels());
   this->Context.scales = ColumnScales(columns.references, this->VectorSize);
-  convergence = Convergence(stopping, this->Context.scales.of(columns));
-  // As for a first pass: see PoissonSolver.
-  convergence.begin(this->System.levels().residualNorm(),
-    !this->Context.components.shiftsRightSide() && !this->Context.flow);
-  this->Context.endPass(convergence.initial());
+  this->System.begin(convergence, stopping, this->Context.scales.of(columns));
   iteration.run(false);
   Report& r = this->Context.report;
   const std::string name = group.name();

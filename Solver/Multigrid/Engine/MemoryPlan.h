@@ -55,20 +55,14 @@ public:
 
   /** The first pass has had memory for the values of this number of nodes of the finest level. */
   void endFirstPass(std::int64_t valueNodes);
-  /** Whether the next pass is to measure what passes need, usually less than the first one did:
-   * where the bounds have no room for these residuals. */
-  bool asksForMeasure(std::int64_t nodes, int stride, KeptResiduals wanted) const
-  {
-    return !this->InCore && !this->hasRoom(nodes, stride, wanted);
-  }
   /** A pass without acceleration and in one chain has had memory for these values. */
   void endPlainPass(std::int64_t valueNodes);
 
   /** Whether a later pass over a finest level of `nodes` nodes, with `stride` values for each, has
    * room for a history with these residuals. */
   bool hasRoom(std::int64_t nodes, int stride, KeptResiduals residuals) const;
-  /** The residuals that are kept: as wanted, else the smallest sample; none: steps do not fit, or
-   * alone. */
+  /** The residuals that a history keeps: those that are wanted, else the smallest sample; none if
+   * there is room for neither. */
   std::optional<KeptResiduals> residualsThatFit(
     std::int64_t nodes, int stride, KeptResiduals wanted) const;
 

@@ -49,7 +49,7 @@ std::unique_ptr<Solution> PoissonSolver::solve(MeshSource& mesh, Problem& proble
     {
       context.scales = ColumnScales(first.references, problem.vectorSize());
     }
-    this->begin(
+    this->System.begin(
       convergence, stopping, problem.beginsAtRest() ? first.alone() : context.scales.of(first));
   }
   iteration.run(false);
@@ -73,22 +73,9 @@ std::unique_ptr<Solution> PoissonSolver::correct(
     context.options.maxCycles };
   Convergence convergence(stopping, first);
   Iteration iteration(context, this->System.levels(), convergence);
-  this->begin(convergence, stopping, first);
+  this->System.begin(convergence, stopping, first);
   iteration.run(false);
   return this->finish(convergence, problem, nullptr);
-}
-
-/** To be called after the first pass. The residual after its sweeps does not count if the
- * right-hand side was projected after them, and cannot be judged by what flows, which the passes
- * after it measure. */
-void PoissonSolver::begin(
-  Convergence& convergence, const Stopping& stopping, const FirstResidual& first)
-{
-  SolveContext& context = this->System.context();
-  convergence = Convergence(stopping, first);
-  convergence.begin(
-    this->System.levels().residualNorm(), !context.components.shiftsRightSide() && !context.flow);
-  context.endPass(convergence.initial());
 }
 
 /** To be called after the last pass: makes the solution, with its report. */

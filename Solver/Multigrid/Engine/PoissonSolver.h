@@ -46,7 +46,6 @@ public:
 
 private:
   EnergySquares discretisation(Problem& problem);
-  void begin(Convergence& convergence, const Stopping& stopping, const FirstResidual& first);
   std::unique_ptr<Solution> finish(
     const Convergence& convergence, Problem& problem, const ErrorBalance* balance);
 

@@ -24,21 +24,21 @@ ColumnResiduals StreamedSystem::build(
     .run(mesh, problem, listener, furtherCoreBytes);
 }
 
-double StreamedSystem::advance(NextSystem& next)
+void StreamedSystem::advance(NextSystem& next)
 {
   this->Levels.renew(next.columns());
   next.startPass();
   Pass(*this->Context, this->Levels).run(next.scale(), { .next = &next });
   next.endPass();
-  return this->Levels.residualNorm();
 }
 
-double StreamedSystem::restart(NextSystem& next)
+void StreamedSystem::restart(NextSystem& next)
 {
   this->Levels.abandon();
   if (this->Context->scratch)
   {
-    return this->advance(next);
+    this->advance(next);
+    return;
   }
   LevelWindow<double>& window = this->window();
   window.setColumns(next.columns());
@@ -47,7 +47,15 @@ double StreamedSystem::restart(NextSystem& next)
   next.fill(window.nodes());
   next.endPass();
   Pass(*this->Context, this->Levels).begin();
-  return this->Levels.residualNorm();
+}
+
+void StreamedSystem::begin(
+  Convergence& convergence, const Stopping& stopping, const FirstResidual& first)
+{
+  convergence = Convergence(stopping, first);
+  convergence.begin(this->Levels.residualNorm(),
+    !this->Context->components.shiftsRightSide() && !this->Context->flow);
+  this->Context->endPass(convergence.initial());
 }
 
 std::unique_ptr<StreamedSolution> StreamedSystem::takeSolution()

@@ -3,6 +3,7 @@
 
 #include "Solver/Multigrid/Engine/ColumnScales.h"
 #include "Solver/Multigrid/Engine/CompiledOperators.h"
+#include "Solver/Multigrid/Engine/Convergence.h"
 #include "Solver/Multigrid/Engine/Hierarchy.h"
 #include "Solver/Multigrid/Engine/NextSystem.h"
 #include "Solver/Multigrid/Engine/SolveContext.h"
@@ -33,11 +34,15 @@ public:
   ColumnResiduals build(MeshSource& mesh, Problem& problem, RowListener* listener = nullptr,
     std::int64_t furtherCoreBytes = 0);
   /** The pass that finishes the last V-cycle of the present system and begins the first one of the
-   * next. Returns the norm of its residual after the first sweeps. */
-  double advance(NextSystem& next);
+   * next. */
+  void advance(NextSystem& next);
   /** Begins the first V-cycle of the next system; the present one is given up, and may be anything
-   * that an exception has left. Returns that norm. */
-  double restart(NextSystem& next);
+   * that an exception has left. */
+  void restart(NextSystem& next);
+  /** To be called after the pass that begins a system, with the residual of its initial values:
+   * begins `convergence`. The residual after the first sweeps does not count if the right-hand side
+   * was projected after them, and cannot be judged by what flows, which later passes measure. */
+  void begin(Convergence& convergence, const Stopping& stopping, const FirstResidual& first);
   /** Returns the values of the present system, and releases everything else. */
   std::unique_ptr<StreamedSolution> takeSolution();
 

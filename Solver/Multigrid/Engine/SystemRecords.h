@@ -7,9 +7,11 @@
 #include "Solver/Multigrid/Engine/VertexRecords.h"
 #include "smg/Export.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <span>
 #include <utility>
 #include <vector>
@@ -150,6 +152,68 @@ private:
   std::vector<std::int16_t> Known;
   std::int64_t Vertices = 0;
   bool IsUnknown = false; // the next vertex
+};
+
+/** The records of the vertices that a pass has loaded and that a system still needs. */
+class OpenRecords
+{
+public:
+  explicit OpenRecords(SystemRecords& records)
+    : All(records)
+  {
+  }
+
+  void startPass() { this->All.startPass(); }
+  void endPass() { this->All.endPass(); }
+  /** Loads the records of the vertices below `end`, a multiple of a block or the number of all. */
+  void load(std::int64_t end)
+  {
+    while (this->End < end)
+    {
+      this->Records.push_back(this->All.next());
+      this->End = this->Records.back().end();
+    }
+  }
+  /** Releases the records of blocks whose vertices are all below `end`. */
+  void release(std::int64_t end)
+  {
+    while (!this->Records.empty() && this->Records.front().end() <= end)
+    {
+      this->Records.pop_front();
+    }
+  }
+  /** The first vertex that is not released. */
+  std::int64_t first() const
+  {
+    return this->Records.empty() ? this->End : this->Records.front().first();
+  }
+
+  const SystemRecord& of(std::int64_t vertex) const
+  {
+    // Blocks have a fixed number of vertices.
+    return this->Records[static_cast<std::size_t>((vertex - this->first()) / RowBlock::Nodes)];
+  }
+  /** The end of the vertices from `cursor` on whose neighbours in the mesh, known or not, are all
+   * below `done`: in groups, as stages advance. */
+  std::int64_t reachable(std::int64_t cursor, std::int64_t done) const
+  {
+    while (cursor < done)
+    {
+      const SystemRecord::Header& h = this->of(cursor).header();
+      const std::int64_t group = (cursor - h.first) / RowBlock::Group;
+      if (h.reach[static_cast<std::size_t>(group)] >= done)
+      {
+        break;
+      }
+      cursor = h.first + std::min<std::int64_t>(h.nodes, (group + 1) * RowBlock::Group);
+    }
+    return cursor;
+  }
+
+private:
+  SystemRecords& All;
+  std::deque<SystemRecord> Records;
+  std::int64_t End = 0;
 };
 
 } // namespace smg
